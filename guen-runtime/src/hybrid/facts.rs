@@ -80,16 +80,25 @@ where
         let scale = rates.iter().fold(0.0, |most: f64, rate| most.max(rate.value.abs()));
         // A slip that is rounding alone, as where it has only begun: its direction is not known.
         let rounds = |rows: &[usize]| rows.len() == 1 && rates[rows[0]].value.abs() <= f64::EPSILON * scale;
+        // Times are known to their last digit, and rates to what their accelerations make of it.
+        let accelerations = self.in_mode.reactions(self.t, &self.state).row_accelerations();
+        let instant = f64::EPSILON * self.t.abs();
+        let is_momentary =
+            |&row: &usize| !anew && rates[row].value.abs() <= instant * accelerations[row].abs();
         from_fn(|c| {
             let (element, state) = (&H::ELEMENTS[c], self.in_mode.mode.0[c]);
             let vanish = |rows: &[usize]| rows.iter().all(|&row| vanishes(rates[row]));
             let closed = state.is_closed() && !anew && element.kind != Kind::Grip;
             // Where a gap has come to zero its rate is known to roundings: slower impacts are impacts.
-            let still = |row: usize| if anew { vanishes(rates[row]) } else { is_rounding(rates[row]) };
+            let still = |row: usize| match anew {
+                true => vanishes(rates[row]),
+                false => is_rounding(rates[row]) || is_momentary(&row),
+            };
             let normal_still = closed || element.normal.is_some_and(still);
             let slip_still = !anew && (state == ElementState::Stick || fired.slip[c])
                 || (anew || !state.slips()) && vanish(element.tangential)
-                || rounds(element.tangential);
+                || rounds(element.tangential)
+                || !element.tangential.is_empty() && element.tangential.iter().all(is_momentary);
             let rate = |still| if still { Rate::Still } else { Rate::Moving };
             Known {
                 touches: touches[c],

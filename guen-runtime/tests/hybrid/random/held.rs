@@ -1,93 +1,106 @@
-//! Whether a mode that has more rows than freedom has forces inside of all cones, by projections onto convex sets: shares nothing with the
-//! vertices of the library.
+//! Whether a mode that has more rows than freedom has forces inside of all cones, by least squares with nonnegative unknowns: shares nothing
+//! with the vertices of the library.
 
 use guen_runtime::hybrid::{Element, ElementState, FreeMotion, Mode};
 use nalgebra::{DMatrix, DVector};
 
-/// The forces of a mode in a plane that are in all cones up to a part of their size; none where the projections do not meet.
+/// The forces of a mode in a plane that are in all cones up to a part of their size; none where there are none.
 pub fn forces<const N: usize, const W: usize, const C: usize>(
     elements: &[Element; C],
     free: &FreeMotion<f64, N, W, C>,
     mode: &Mode<C>,
 ) -> Option<DVector<f64>> {
-    // Forces are affine in one unknown for each row that is held: `l = L y + c`.
-    let mut held: Vec<usize> = Vec::new();
-    let mut columns: Vec<DVector<f64>> = Vec::new();
+    // Forces are sums of the edges of the cones, each taken at least zero times, and a constant.
+    let mut edges: Vec<DVector<f64>> = Vec::new();
     let mut constant = DVector::zeros(W);
+    // The rows whose rates vanish; and pairs of edges that make a force between two limits, with the sum of both.
+    let (mut held, mut pairs) = (Vec::new(), Vec::new());
     let unit = |row: usize| DVector::from_fn(W, |w, _| if w == row { 1.0 } else { 0.0 });
-    // Of each element the places of its unknowns: the normal one, the tangential one.
-    let mut places = [(None, None); C];
     for (c, element) in elements.iter().enumerate() {
         let slides = match mode.0[c] {
             ElementState::Open => continue,
-            ElementState::SlipForward => 1.0,
-            ElementState::SlipBackward => -1.0,
-            _ => 0.0,
+            ElementState::SlipForward => Some(1.0),
+            ElementState::SlipBackward => Some(-1.0),
+            _ => None,
         };
-        if let Some(row) = element.normal {
-            let along = element.tangential.first().filter(|_| slides != 0.0);
-            let friction = along.map_or(DVector::zeros(W), |&row| unit(row) * (slides * free.friction[c]));
-            places[c].0 = Some(held.len());
-            held.push(row);
-            columns.push(unit(row) - friction);
-        }
-        for &row in element.tangential {
-            if slides == 0.0 {
-                places[c].1 = Some(held.len());
-                held.push(row);
-                columns.push(unit(row));
-            } else if element.normal.is_none() {
-                constant[row] -= slides * free.limits[c];
+        held.extend(element.normal);
+        held.extend(element.tangential.iter().filter(|_| slides.is_none()));
+        match (element.normal, element.tangential.first(), slides) {
+            (Some(normal), Some(&along), Some(sign)) => {
+                edges.push(unit(normal) - unit(along) * (sign * free.friction[c]));
             }
+            (Some(normal), Some(&along), None) => {
+                edges.push(unit(normal) + unit(along) * free.stiction[c]);
+                edges.push(unit(normal) - unit(along) * free.stiction[c]);
+            }
+            (Some(normal), None, _) => edges.push(unit(normal)),
+            (None, Some(&along), Some(sign)) => constant[along] -= sign * free.limits[c],
+            (None, Some(&along), None) => {
+                pairs.push((edges.len(), 2.0 * free.limits[c]));
+                constant[along] -= free.limits[c];
+                edges.push(unit(along));
+                edges.push(DVector::zeros(W));
+            }
+            (None, None, _) => {}
         }
     }
     let delassus = DMatrix::from_fn(W, W, |i, j| free.delassus[i][j]);
-    let (count, map) = (held.len(), DMatrix::from_columns(&columns));
+    let map = if edges.is_empty() { DMatrix::zeros(W, 0) } else { DMatrix::from_columns(&edges) };
     let rates = DVector::from_row_slice(&free.biases) + &delassus * &constant;
     let slopes = &delassus * &map;
-    let matrix = DMatrix::from_fn(count, count, |i, j| slopes[(held[i], j)]);
-    let right = DVector::from_fn(count, |i, _| -rates[held[i]]);
-    let size = matrix.amax();
-    let inverse = matrix.clone().pseudo_inverse(1e-9 * size).ok()?;
-    let mut unknowns: DVector<f64> = &inverse * &right;
-    for _ in 0..20_000 {
-        let outside = unknowns.clone();
-        for (c, element) in elements.iter().enumerate() {
-            match places[c] {
-                (Some(n), Some(t)) => {
-                    (unknowns[n], unknowns[t]) = in_cone(free.stiction[c], unknowns[n], unknowns[t]);
+    let equations = held.len() + pairs.len();
+    let matrix = DMatrix::from_fn(equations, edges.len(), |i, j| match held.get(i) {
+        Some(&row) => slopes[(row, j)],
+        None => f64::from(u8::from((0..2).any(|k| pairs[i - held.len()].0 + k == j))),
+    });
+    let right = DVector::from_fn(equations, |i, _| match held.get(i) {
+        Some(&row) => -rates[row],
+        None => pairs[i - held.len()].1,
+    });
+    let found = nonnegative(&matrix, &right)?;
+    let off = &matrix * &found - &right;
+    (off.amax() <= 1e-7 * right.amax().max(1.0)).then(|| map * found + constant)
+}
+
+/// The nonnegative numbers with which equations are fulfilled best, by Lawson's and Hanson's exchange of unknowns.
+fn nonnegative(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
+    let count = matrix.ncols();
+    let mut taken = vec![false; count];
+    let mut found: DVector<f64> = DVector::zeros(count);
+    let small = 1e-12 * matrix.amax().max(1.0) * right.amax().max(1.0);
+    for _ in 0..100 {
+        let slopes = matrix.transpose() * (right - matrix * &found);
+        let free = (0..count).filter(|j| !taken[*j] && slopes[*j] > small);
+        let Some(next) = free.max_by(|a, b| slopes[*a].total_cmp(&slopes[*b])) else { return Some(found) };
+        taken[next] = true;
+        loop {
+            let places: Vec<usize> = (0..count).filter(|j| taken[*j]).collect();
+            let part = matrix.select_columns(&places);
+            let best = part.clone().svd(true, true).solve(right, 1e-10 * part.amax()).ok()?;
+            let below = |k: &usize| best[*k] <= 0.0;
+            let step = |k: usize| found[places[k]] / (found[places[k]] - best[k]);
+            let least = (0..places.len()).filter(below).map(step).fold(1.0, f64::min);
+            for (k, &j) in places.iter().enumerate() {
+                found[j] += least * (best[k] - found[j]);
+            }
+            if (0..places.len()).filter(below).count() == 0 {
+                break;
+            }
+            for &j in &places {
+                if found[j] <= small * f64::EPSILON {
+                    (found[j], taken[j]) = (0.0, false);
                 }
-                (Some(n), None) => unknowns[n] = unknowns[n].max(0.0),
-                (None, Some(t)) if element.normal.is_none() => {
-                    unknowns[t] = unknowns[t].clamp(-free.limits[c], free.limits[c]);
-                }
-                _ => {}
             }
         }
-        let off = &matrix * &unknowns - &right;
-        if off.amax() <= 1e-7 * right.amax().max(1.0)
-            && (&outside - &unknowns).amax() <= 1e-7 * unknowns.amax().max(1.0)
-        {
-            return Some(map * unknowns + constant);
-        }
-        unknowns -= &inverse * off;
     }
     None
 }
 
-/// The nearest point of the cone `|t| <= mu n`.
-fn in_cone(mu: f64, n: f64, t: f64) -> (f64, f64) {
-    if t.abs() <= mu * n {
-        return (n, t);
-    }
-    let along = ((n + mu * t.abs()) / (1.0 + mu * mu)).max(0.0);
-    (along, (mu * along).copysign(t))
-}
-
 #[test]
-fn points_are_put_on_the_nearest_edge() {
-    assert_eq!(in_cone(0.5, 2.0, 1.0), (2.0, 1.0));
-    assert_eq!(in_cone(1.0, 0.0, 2.0), (1.0, 1.0));
-    assert_eq!(in_cone(1.0, 0.0, -2.0), (1.0, -1.0));
-    assert_eq!(in_cone(0.5, -2.0, 1.0).0, 0.0);
+fn numbers_below_zero_are_left_out() {
+    let matrix = DMatrix::from_row_slice(2, 2, &[1.0, 1.0, 0.0, 1.0]);
+    let inside = nonnegative(&matrix, &DVector::from_row_slice(&[3.0, 1.0])).unwrap();
+    assert!((inside - DVector::from_row_slice(&[2.0, 1.0])).amax() < 1e-14);
+    let outside = nonnegative(&matrix, &DVector::from_row_slice(&[1.0, 2.0])).unwrap();
+    assert!((outside - DVector::from_row_slice(&[0.0, 1.5])).amax() < 1e-14);
 }

@@ -43,7 +43,7 @@ fn largest(values: &[f64]) -> f64 {
 }
 
 /// The slip of an element that counts as none.
-const STILL: f64 = 1e-12;
+const STILL: f64 = 1e-14;
 
 impl Judged {
     /// Judges a mode at a state: its laws, and its accelerations beside those of another solver.
