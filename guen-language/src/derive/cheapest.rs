@@ -138,9 +138,12 @@ fn at_values(
         !is_given && !kept.contains(symbol) && !fixed.contains(symbol)
     });
     let symbols: Vec<SymbolId> = fixed.iter().chain(&idle).copied().collect();
-    for (n, d) in [(0, 1), (1, 1), (1, 2), (-1, 3)] {
+    // Of what the rates do not depend on one number is as good as another, if they are defined there.
+    let numbers = [(0, 1), (1, 1), (1, 2), (-1, 3)];
+    let tried = if idle.is_empty() { 1 } else { numbers.len() };
+    for (n, d) in &numbers[..tried] {
         let bench = &mut model.bench;
-        let number = bench.graph.number(Rational::new(n, d));
+        let number = bench.graph.number(Rational::new(*n, *d));
         let idle = idle.iter().map(|symbol| (bench.graph.symbol_expr(*symbol), number));
         let all: Vec<(ExprId, ExprId)> = values.iter().copied().chain(idle).collect();
         let mut found = part.clone();
