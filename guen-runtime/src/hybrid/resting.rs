@@ -7,8 +7,8 @@ use crate::hybrid::error::HybridCause;
 use crate::hybrid::impact::{Impact, Struck};
 use crate::hybrid::in_mode::{InMode, moved};
 use crate::hybrid::located::NOISE;
-use crate::hybrid::mode::ElementState;
-use crate::hybrid::select::{Known, Rate, select};
+use crate::hybrid::mode::{ElementState, Mode};
+use crate::hybrid::select::{Known, Rate, Unselected, select};
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::transition::TransitionKind;
 use crate::hybrid::turn::{Place, STILL};
@@ -102,6 +102,7 @@ where
         struck: &mut Struck<W, C>,
         resting: &mut Resting<C>,
         meets: [bool; C],
+        known: &[Known; C],
     ) -> Result<Option<TransitionKind>, HybridCause<C>> {
         let rate = |c: usize, rates: &[f64; W]| H::ELEMENTS[c].normal.map_or(0.0, |row| rates[row]);
         let speed = (0..C).filter(|c| meets[*c]).fold(0.0, |most: f64, c| most.max(-rate(c, &impact.before)));
@@ -166,9 +167,39 @@ where
                 return Ok(None);
             }
         }
-        let Some(closing) = impact.closing(struck) else { return Ok(None) };
         // Only where a mode with these contacts closed goes on.
-        let closed_state = moved(&self.state, &closing.impulses, &self.free().responses);
+        let goes_on = |next: &Mode<C>| (0..C).all(|c| !rebounds(c) || next.0[c].is_closed());
+        let mut closing = None;
+        match self.closed(impact, struck) {
+            Some((closed, Ok(next))) if goes_on(&next) => closing = Some(closed),
+            // Without an end of the flights that digits could tell, and without a mode that they lead to, there is no motion.
+            Some((_, Err(why))) if lowest => return Err(why.into()),
+            _ => {}
+        }
+        if closing.is_none() && lowest {
+            // What does not slip before an impact is torn off by it for a time in which nothing moves that digits tell.
+            let still = |c: usize| impact.takes_part[c] && known[c].slip == Rate::Still;
+            let held = Struck { sticks: from_fn(|c| struck.sticks[c] || still(c)), ..*struck };
+            closing = match self.closed(impact, &held) {
+                Some((closed, Ok(next))) if goes_on(&next) => Some(closed),
+                _ => None,
+            };
+        }
+        let Some(closing) = closing else { return Ok(None) };
+        *struck = closing;
+        let impacts = resting.finish();
+        Ok(Some(TransitionKind::Rest { impacts, until }))
+    }
+
+    /// The impact in which all that touches closes and what sticks is as in another one; and the mode that goes on after it. None where the
+    /// impulses are not determined.
+    fn closed(
+        &self,
+        impact: &Impact<'_, f64, W, C>,
+        like: &Struck<W, C>,
+    ) -> Option<(Struck<W, C>, Result<Mode<C>, Unselected<C>>)> {
+        let closing = impact.closing(like)?;
+        let state = moved(&self.state, &closing.impulses, &self.free().responses);
         let known: [Known; C] = from_fn(|c| Known {
             touches: impact.takes_part[c] && H::ELEMENTS[c].kind != Kind::Grip,
             normal: Rate::Still,
@@ -176,19 +207,8 @@ where
             latch: self.in_mode.mode.0[c],
             ..Known::default()
         });
-        let switches = self.in_mode.switches;
-        let next = match select(self.in_mode.system.clone(), switches, (self.t, &closed_state), &known) {
-            Ok(next) => next,
-            // Without an end of the flights that digits could tell, and without a mode that they lead to, there is no motion.
-            Err(why) if lowest => return Err(why.into()),
-            Err(_) => return Ok(None),
-        };
-        if (0..C).any(|c| rebounds(c) && !next.mode.0[c].is_closed()) {
-            return Ok(None);
-        }
-        *struck = closing;
-        let impacts = resting.finish();
-        Ok(Some(TransitionKind::Rest { impacts, until }))
+        let next = select(self.in_mode.system.clone(), self.in_mode.switches, (self.t, &state), &known);
+        Some((closing, next.map(|next| next.mode)))
     }
 }
 

@@ -297,7 +297,11 @@ where
             Unsolved::Several => HybridCause::SeveralImpacts,
             Unsolved::EnergyGain(gain) => HybridCause::EnergyGain { gain },
         })?;
-        let rests = self.rests(&impact, &mut struck, resting, from_fn(meets))?;
+        // What was on its way up and got no impulse has no part in a sequence that is closed.
+        let rises = |row: usize| before[row] > 0.0 && struck.impulses[row] == 0.0 && struck.after[row] > 0.0;
+        let leaves = |c: usize| known[c].normal == Rate::Moving && H::ELEMENTS[c].normal.is_some_and(rises);
+        let pressed = Impact { takes_part: from_fn(|c| takes_part[c] && !leaves(c)), ..impact };
+        let rests = self.rests(&pressed, &mut struck, resting, from_fn(meets), known)?;
         let scale = before.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
         for c in 0..C {
             let element = &H::ELEMENTS[c];
@@ -316,6 +320,7 @@ where
         let drifts = self.in_mode.system.row_drifts(self.t, &self.state);
         let by_drift: f64 = struck.impulses.iter().zip(&drifts).map(|(l, w)| l * w).sum();
         let (impulses, energy) = (struck.impulses, struck.energy - by_drift);
+        let takes_part = if rests.is_some() { pressed.takes_part } else { takes_part };
         Ok(Strike { impulses, energy, rests, takes_part: Some(takes_part) })
     }
 
