@@ -53,6 +53,8 @@ pub(super) struct Step<'a, H, const N: usize, const W: usize, const C: usize, co
     pub(super) sides: &'a Sides<C, S>,
     pub(super) start: f64,
     pub(super) end: f64,
+    /// The time of the step after which events are looked for.
+    pub(super) from: f64,
     /// Whether the mode begins with the step: functions may leave zero there.
     pub(super) first: bool,
     pub(super) at: &'a mut dyn FnMut(f64) -> [f64; N],
@@ -62,8 +64,9 @@ impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Step<'_,
 where
     H: HybridSystem<N, W, C, S>,
 {
-    /// The first falling zero, or touch of zero, after a time of the step.
-    pub(super) fn first_after(&mut self, from: f64) -> Option<Found> {
+    /// The first falling zero, or touch of zero.
+    pub(super) fn first(&mut self) -> Option<Found> {
+        let from = self.from;
         let mut before = self.look(from);
         let divisions = if self.first { FIRST_DIVISIONS } else { 0 };
         let (start, end) = (self.start, self.end);
@@ -153,26 +156,40 @@ where
 
     /// The falling zero between two times, at the second of which the function is negative.
     fn falling(&mut self, function: Function, (a, high): (f64, f64), (b, low): (f64, f64)) -> Option<Found> {
-        let (mut before, mut value) = (a, high);
-        if high <= 0.0 {
+        let (mut from, mut to) = ((a, high), (b, low));
+        if high <= 0.0 && a > self.from {
+            // By no more than rounding it has been below zero for a while: it fell from its last top.
+            (from, to) = (self.top_before(function, a), (a, high));
+        } else if high <= 0.0 {
             // It leaves zero here, and comes back.
-            for k in 1..=HALVINGS {
-                let t = a + (b - a) * libm::exp2(-f64::from(k));
-                let found = self.value(function, t);
-                if found > 0.0 {
-                    (before, value) = (t, found);
-                    break;
-                }
+            let mut parts = (1..=HALVINGS).map(|k| a + (b - a) * libm::exp2(-f64::from(k)));
+            if let Some(found) = parts.find_map(|t| {
+                let value = self.value(function, t);
+                (value > 0.0).then_some((t, value))
+            }) {
+                from = found;
             }
         }
-        let mut t = before;
-        if value > 0.0 {
-            t = narrow(Bracket { before, after: b }, (value, low), &spacing, &mut |t| {
-                self.value(function, t)
-            })
-            .after;
+        let mut t = from.0;
+        if from.1 > 0.0 {
+            let bracket = Bracket { before: from.0, after: to.0 };
+            t = narrow(bracket, (from.1, to.1), &spacing, &mut |t| self.value(function, t)).after;
         }
         self.counts(function, t).then_some(Found { function, t, does: Does::Falls })
+    }
+
+    /// Where a function was highest before a time at which it falls, and its value there; the time itself where it did not rise since events are
+    /// looked for and is not above zero there.
+    fn top_before(&mut self, function: Function, t: f64) -> (f64, f64) {
+        let (from, here) = (self.from, self.rate(function, t));
+        let rises = self.rate(function, from);
+        if rises > 0.0 && here < 0.0 {
+            let bracket = Bracket { before: from, after: t };
+            let top = narrow(bracket, (rises, here), &spacing, &mut |t| self.rate(function, t)).after;
+            return (top, self.value(function, top));
+        }
+        let value = self.value(function, from);
+        if value > 0.0 { (from, value) } else { (t, 0.0) }
     }
 
     /// The falling zero of the function of a reset that has not been positive yet: it goes above zero between two times, and back.
@@ -352,9 +369,16 @@ mod tests {
         let in_mode = InMode::new(particle, Mode([ElementState::Open]), 0.0, &[1.0, 0.0]);
         let sides = Sides { latches: [0.0], signals: [], slow: [0.0] };
         let mut at = |t: f64| [1.0 + gap + (rate + t) * t, rate + 2.0 * t];
-        let mut step =
-            Step { in_mode: &in_mode, sides: &sides, start: 0.0, end: 0.1, first: false, at: &mut at };
-        step.first_after(0.0)
+        let mut step = Step {
+            in_mode: &in_mode,
+            sides: &sides,
+            start: 0.0,
+            end: 0.1,
+            from: 0.0,
+            first: false,
+            at: &mut at,
+        };
+        step.first()
     }
 
     #[test]

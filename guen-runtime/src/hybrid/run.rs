@@ -300,10 +300,11 @@ where
                     sides: &sides,
                     start: before.time,
                     end: after.time,
+                    from,
                     first,
                     at: &mut state_at,
                 };
-                let Some(found) = step.first_after(from) else { break };
+                let Some(found) = step.first() else { break };
                 if let (Does::IsBelow(gap), Some(c)) = (found.does, found.function.element()) {
                     return Err(HybridCause::Penetrating { contact: H::ELEMENTS[c].name, gap });
                 }
