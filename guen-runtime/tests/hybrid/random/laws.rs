@@ -42,8 +42,29 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().fold(1.0, |most: f64, value| most.max(value.abs()))
 }
 
-/// The slip of an element that counts as none.
-const STILL: f64 = 1e-14;
+/// The slip of an element that counts as none, and the one from which it may as well be one in the direction of its mode.
+const STILL: f64 = 1e-12;
+const HARDLY: f64 = 1e-15;
+
+/// The parts in which slips that are hardly any have the directions of the mode.
+fn directed<const C: usize>(mut parts: [Part; C], mode: &Mode<C>, rates: &[f64], of_rates: f64) -> [Part; C] {
+    for (part, state) in parts.iter_mut().zip(&mode.0) {
+        let sign = match state {
+            ElementState::SlipForward => 1.0,
+            ElementState::SlipBackward => -1.0,
+            _ => continue,
+        };
+        let (Part::Contact { tangent: Some(Tangent { row, slips, .. }), .. } | Part::Grip { row, slips, .. }) =
+            part
+        else {
+            continue;
+        };
+        if slips.is_none() && rates[*row].abs() > HARDLY * of_rates {
+            *slips = Some(sign);
+        }
+    }
+    parts
+}
 
 impl Judged {
     /// Judges a mode at a state: its laws, and its accelerations beside those of another solver.
@@ -149,6 +170,11 @@ impl Judged {
             (0..W).map(|w| (other[w] - accelerations[w]).abs()).fold(0.0, f64::max) / of_biases.max(of_forces)
         };
         let mut difference = apart(&other);
+        if difference > 1e-7
+            && let Some(found) = forces(&delassus, &biases, &directed(parts, mode, &free.row_rates, of_rates))
+        {
+            difference = difference.min(apart(&(&biases + &delassus * found)));
+        }
         if difference > 1e-7 && in_mode.is_redundant() {
             // Both go on where forces exist for both.
             if let Some(found) = held::forces(&H::ELEMENTS, &free, mode) {
