@@ -21,9 +21,9 @@ pub(super) struct Found {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Does {
     Falls,
-    /// It only touches zero, as far as can be told.
+    /// Touches zero, as far as can be told, and goes back.
     Touches,
-    /// It is below zero, by so much, and has been: a gap whose zero was not seen.
+    /// Is below zero by so much, and has been: a gap whose zero was not seen.
     IsBelow(f64),
 }
 
@@ -178,8 +178,8 @@ where
         self.counts(function, t).then_some(Found { function, t, does: Does::Falls })
     }
 
-    /// Where a function was highest before a time at which it falls, and its value there; the time itself where it did not rise since events are
-    /// looked for and is not above zero there.
+    /// The top of a function before a time at which it falls, and its value there: where its rate vanishes, or where the search began if it
+    /// fell from there. The time itself, with zero, if it was not above zero before.
     fn top_before(&mut self, function: Function, t: f64) -> (f64, f64) {
         let (from, here) = (self.from, self.rate(function, t));
         let rises = self.rate(function, from);
