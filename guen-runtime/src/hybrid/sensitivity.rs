@@ -126,7 +126,6 @@ where
     /// #         []
     /// #     }
     /// # }
-    /// use guen_runtime::hybrid::HybridSystem;
     /// use guen_runtime::steppers::Dop853;
     ///
     /// let end = |height: f64| Ball.simulation(&[height, 0.0]).tolerance(1e-12).run(0.0..0.8).unwrap();
