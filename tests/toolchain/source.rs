@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::sync::LazyLock;
 
-use guen::steppers::{Rk4, Rk8};
+use guen::steppers::{Cause, Dop853, Guard, Integration, Rk4, Rk8};
 use guen::{System, mechanical_system};
 
 mechanical_system! {
@@ -64,6 +64,21 @@ mechanical_system! {
 }
 
 mechanical_system! {
+    /// A pendulum that is driven and damped: rates that depend on time, and decays that let steps grow.
+    pub system Swing {
+        constants   { l > 0 = 1, g = 9.81, damping >= 0 = 0.1, rate = 2 }
+        inputs      { push }
+        coordinates { q }
+        parameters  { w = dot(q); }
+        kinetic_energy = l^2*w^2/2;
+        potential_energy = -g*l*cos(q);
+        states      { dot(wear) = w^2/(1 + w^2) - wear; }
+        forces      { push*sin(rate*t) - damping*w along w; }
+        provide source;
+    }
+}
+
+mechanical_system! {
     /// Redundant coordinates: their constraint is restored after steps, which C does not do.
     pub system Bead {
         constants   { r > 0 = 1, g = 9.81 }
@@ -110,14 +125,18 @@ static int read_all(double *x, int count)
 static void print_all(const double *x, int count)
 {
     int i;
-    for (i = 0; i < count; ++i)
-        printf("%llx ", guen_bits(x[i]));
+    for (i = 0; i < count; ++i) {
+        if (x[i] == x[i])
+            printf("%llx ", guen_bits(x[i]));
+        else
+            printf("nan ");
+    }
 }
 
 #define SYSTEM(NAME, RUNS) \
     if (!strcmp(argument[1], #NAME)) { \
-        double c[NAME##_CONSTANTS + 1], k[NAME##_PREPARED + 1], s[NAME##_STATES], u[NAME##_INPUTS + 1], r[NAME##_STATES], t; \
-        while (read_all(c, NAME##_CONSTANTS) && read_all(&t, 1) && read_all(s, NAME##_STATES) && read_all(u, NAME##_INPUTS)) { \
+        double c[NAME##_CONSTANTS + 1], k[NAME##_PREPARED + 1], s[NAME##_STATES], u[NAME##_INPUTS + 1], r[NAME##_STATES], t, settings[6]; \
+        while (read_all(c, NAME##_CONSTANTS) && read_all(&t, 1) && read_all(s, NAME##_STATES) && read_all(u, NAME##_INPUTS) && read_all(settings, 6)) { \
             int status = NAME##_prepare(c, k); \
             printf("%d ", status); \
             if (status) { \
@@ -130,6 +149,21 @@ static void print_all(const double *x, int count)
             printf("\n"); \
         } \
     }
+#define ADAPTIVE(NAME) { \
+        double at = t, x[NAME##_STATES], times[5], samples[5 * NAME##_STATES]; \
+        guen_adaptive method = { settings[0], settings[1], settings[2], (unsigned long long)settings[3], 0, 0, 0 }; \
+        int i, status; \
+        for (i = 0; i < 5; ++i) \
+            times[i] = i == 4 ? t + settings[4] : t + settings[4] * (i * i) / 17.0; \
+        for (i = 0; i < 5 * NAME##_STATES; ++i) \
+            samples[i] = 0.0; \
+        memcpy(x, s, sizeof x); \
+        status = NAME##_dop853(c, k, u, &at, x, t + settings[4], &method, (int)settings[5], times, samples); \
+        printf("%d %llu %llu %llu ", status, method.evaluations, method.accepted, method.rejected); \
+        print_all(&at, 1); \
+        print_all(x, NAME##_STATES); \
+        print_all(samples, 5 * NAME##_STATES); \
+    }
 #define RUN(NAME, METHOD) { \
         double at = t, x[NAME##_STATES]; \
         memcpy(x, s, sizeof x); \
@@ -141,10 +175,11 @@ int main(int count, char **argument)
 {
     if (count < 2)
         return 1;
-    SYSTEM(hoop, RUN(hoop, rk4) RUN(hoop, rk8))
-    SYSTEM(hoop_tilt, RUN(hoop_tilt, rk4) RUN(hoop_tilt, rk8))
+    SYSTEM(hoop, RUN(hoop, rk4) RUN(hoop, rk8) ADAPTIVE(hoop))
+    SYSTEM(hoop_tilt, RUN(hoop_tilt, rk4) RUN(hoop_tilt, rk8) ADAPTIVE(hoop_tilt))
     SYSTEM(cart, RUN(cart, rk4) RUN(cart, rk8))
-    SYSTEM(block_slides, RUN(block_slides, rk4) RUN(block_slides, rk8))
+    SYSTEM(block_slides, RUN(block_slides, rk4) RUN(block_slides, rk8) ADAPTIVE(block_slides))
+    SYSTEM(swing, ADAPTIVE(swing))
     SYSTEM(bead, )
     return 0;
 }
@@ -174,7 +209,14 @@ fn compiled() -> PathBuf {
     let mut text = String::new();
     // Twice: the second time a text says nothing.
     for _ in 0..2 {
-        for source in [hoop::SOURCE, hoop::tilt::SOURCE, cart::SOURCE, block::slides::SOURCE, bead::SOURCE] {
+        for source in [
+            hoop::SOURCE,
+            hoop::tilt::SOURCE,
+            cart::SOURCE,
+            block::slides::SOURCE,
+            swing::SOURCE,
+            bead::SOURCE,
+        ] {
             text += &source.to_string();
         }
     }
@@ -198,18 +240,19 @@ fn answers(system: &str, lines: &[Vec<f64>]) -> Vec<String> {
 
 /// The bits of a state as the program prints them; all NaN are one.
 fn bits(state: &[f64]) -> String {
-    state.iter().map(|x| format!("{:x} ", x.to_bits())).collect()
+    let word = |x: &f64| if x.is_nan() { "nan ".to_owned() } else { format!("{:x} ", x.to_bits()) };
+    state.iter().map(word).collect()
 }
 
-/// What Rust computes: the status of `prepare`, rates, and both runs; nothing where a run comes to an edge of the chart, which C does not see.
+/// What Rust computes: the status of `prepare`, rates, and the runs; nothing where a run comes to an edge of the chart, which C does not see.
 fn computed<const N: usize>(
     system: &impl System<f64, N>,
     t: f64,
     s: &[f64; N],
-    runs: bool,
+    runs: Runs<'_>,
 ) -> Option<String> {
     let mut text = format!("0 {}", bits(&system.rhs(t, s)));
-    if runs {
+    if let Runs::Fixed | Runs::All(_) = runs {
         let go = |_: f64, _: &[f64; N]| std::ops::ControlFlow::Continue(());
         let ends = [
             Rk4::new(0.05).integrate(system, t, s, t + 0.73, go).ok()?.state,
@@ -217,7 +260,69 @@ fn computed<const N: usize>(
         ];
         ends.iter().for_each(|end| text += &format!("0 {}", bits(end)));
     }
+    if let Runs::All(settings) | Runs::Adaptive(settings) = runs {
+        text += &adaptive(system, t, s, settings)?;
+    }
     Some(text.trim().to_owned())
+}
+
+/// The runs that are compared.
+#[derive(Clone, Copy)]
+enum Runs<'a> {
+    None,
+    Fixed,
+    /// With DOP853, under these settings.
+    All(&'a [f64; 6]),
+    /// DOP853 alone.
+    Adaptive(&'a [f64; 6]),
+}
+
+/// A run of DOP853 as the program in C prints it. Settings are tolerances, the first step, the number of steps, the span and the number of samples.
+fn adaptive<const N: usize>(
+    system: &impl System<f64, N>,
+    t: f64,
+    s: &[f64; N],
+    &[rtol, atol, first, most, span, count]: &[f64; 6],
+) -> Option<String> {
+    let method = Dop853::new(rtol, atol).with_max_steps(most as u64);
+    let method = if first != 0.0 { method.with_first_step(first) } else { method };
+    let times: [f64; 5] =
+        std::array::from_fn(|i| if i == 4 { t + span } else { t + span * (i * i) as f64 / 17.0 });
+    let mut samples = [[0.0; N]; 5];
+    let run = Integration::new(system, t, s)
+        .guard(Guard::FINITE)
+        .sample(&times[..count as usize], &mut |k, _, state| samples[k] = *state)
+        .run(&method, t + span);
+    let (status, time, state, work) = match run {
+        Ok(done) => (0, done.time, done.state, done.statistics),
+        Err(error) => {
+            let status = match error.cause {
+                Cause::Setting(_) => 1,
+                Cause::StepUnderflow => 2,
+                Cause::NotFinite => 3,
+                Cause::TooManySteps { .. } => 4,
+                _ => return None,
+            };
+            (status, error.time, error.state, error.statistics)
+        }
+    };
+    let work = format!("{status} {} {} {} ", work.evaluations, work.accepted, work.rejected);
+    Some(work + &bits(&[time]) + &bits(&state) + &bits(samples.as_flattened()))
+}
+
+/// Settings of all kinds of runs: forwards and backwards, with few samples and many, tolerances that are met and one that cannot be.
+fn settings(round: usize, draw: &mut impl FnMut() -> f64) -> [f64; 6] {
+    let tolerance = 10_f64.powf(-7.0 + 4.0 * draw());
+    let first = if round % 3 == 0 { 0.2 + 0.1 * draw() } else { 0.0 };
+    let span = [0.9, -0.4, 2.5, 0.0, 1.5][round % 5] * (1.0 + draw() / 2.0);
+    let most = if round % 7 == 0 { 3.0 } else { 2000.0 };
+    let usual = [tolerance, tolerance * 10.0, first, most, span, (round % 6) as f64];
+    match round % 40 {
+        11 => [1e-300, 1e-300, first, most, 0.9, 5.0],
+        21 => [tolerance, 0.0, first, most, 0.9, 5.0],
+        31 => [tolerance, tolerance, -1.0, most, 0.9, 5.0],
+        _ => usual,
+    }
 }
 
 /// Numbers that are the same in every run of the tests, between -1 and 1.
@@ -251,18 +356,25 @@ fn bits_are_those_of_rust() {
             if i == 4 { 1.2 + draw() / 2.0 } else { draw() * if i == 3 { far } else { 1.0 } }
         });
         let t = draw();
+        let settings = settings(round, &mut draw);
         let mut given = vec![system.m, system.a, system.g, t];
         given.extend(s);
-        lines.extend(computed(&system.prepare().unwrap(), t, &s, true).map(|bits| (given, bits)));
+        given.extend(settings);
+        lines.extend(
+            computed(&system.prepare().unwrap(), t, &s, Runs::All(&settings)).map(|bits| (given, bits)),
+        );
     }
     compare("hoop", lines);
 
     let mut lines = Vec::new();
-    for _ in 0..120 {
+    for round in 0..120 {
+        let settings = settings(round, &mut draw);
         let system = hoop::Tilt { a: 0.6 + draw() / 2.0 };
         let (s, t) = ([1.4 + draw() / 4.0, draw() / 2.0, draw(), draw()], draw());
-        let given = [&[system.a, t], &s[..]].concat();
-        lines.extend(computed(&system.prepare().unwrap(), t, &s, true).map(|bits| (given, bits)));
+        let given = [&[system.a, t], &s[..], &settings].concat();
+        lines.extend(
+            computed(&system.prepare().unwrap(), t, &s, Runs::All(&settings)).map(|bits| (given, bits)),
+        );
     }
     compare("hoop_tilt", lines);
 
@@ -276,29 +388,51 @@ fn bits_are_those_of_rust() {
         let mut given = vec![system.m, system.k, system.slope, system.q_1, system.r#type, t];
         given.extend(s);
         given.extend([inputs.push, inputs.pull[0], inputs.pull[1]]);
+        given.extend([0.0; 6]);
         lines.extend(
-            computed(&system.prepare().unwrap().driven(inputs), t, &s, true).map(|bits| (given, bits)),
+            computed(&system.prepare().unwrap().driven(inputs), t, &s, Runs::Fixed).map(|bits| (given, bits)),
         );
     }
     compare("cart", lines);
 
     let mut lines = Vec::new();
-    for _ in 0..50 {
+    for round in 0..50 {
+        let settings = settings(round, &mut draw);
         let system = block::Slides { m: 2.0 + draw(), ..Default::default() };
         let (s, push, t) = ([2.0 + draw()], 30.0 * (1.1 + draw()), draw());
-        let given = vec![system.m, system.g, t, s[0], push];
+        let given = [&[system.m, system.g, t, s[0], push], &settings[..]].concat();
         let driven = system.prepare().unwrap().driven(block::slides::Inputs { push });
-        lines.extend(computed(&driven, t, &s, true).map(|bits| (given, bits)));
+        lines.extend(computed(&driven, t, &s, Runs::All(&settings)).map(|bits| (given, bits)));
     }
     compare("block_slides", lines);
+
+    let mut lines = Vec::new();
+    for round in 0..400 {
+        let settings = settings(round, &mut draw);
+        let system = Swing { l: 1.1 + draw(), damping: 1.0 + draw(), ..Swing::default() };
+        // Among them states and inputs that are not finite, and those whose rates are not.
+        let far = [1.0, 1.0, 1e3, 1e180, f64::NAN][if round % 9 == 0 { round / 9 % 5 } else { 0 }];
+        let s = [3.0 * draw(), far * draw(), draw()];
+        let (push, t) = (if round == 100 { f64::INFINITY } else { 5.0 * draw() }, 10.0 * draw());
+        let given =
+            [&[system.l, system.g, system.damping, system.rate, t], &s[..], &[push], &settings].concat();
+        let driven = system.prepare().unwrap().driven(swing::Inputs { push });
+        lines.extend(computed(&driven, t, &s, Runs::Adaptive(&settings)).map(|bits| (given, bits)));
+    }
+    // Every end that a run can come to is among them.
+    for status in ["0", "1", "2", "3", "4"] {
+        // After the status of `prepare` and three rates.
+        assert!(lines.iter().any(|(_, line)| line.split(' ').nth(4) == Some(status)), "{status}");
+    }
+    compare("swing", lines);
 
     let mut lines = Vec::new();
     for _ in 0..50 {
         let system = Bead { r: 1.0, g: 9.0 + draw() };
         let (angle, pace) = (3.0 * draw(), draw());
         let s = [angle.cos(), angle.sin(), pace];
-        let given = vec![1.0, system.g, 0.0, s[0], s[1], pace];
-        lines.extend(computed(&system.prepare().unwrap(), 0.0, &s, false).map(|bits| (given, bits)));
+        let given = [&[1.0, system.g, 0.0, s[0], s[1], pace], &[0.0; 6][..]].concat();
+        lines.extend(computed(&system.prepare().unwrap(), 0.0, &s, Runs::None).map(|bits| (given, bits)));
     }
     compare("bead", lines);
 }
@@ -315,12 +449,22 @@ fn the_program_of_the_page_prints_what_rust_computes() {
     let printed = String::from_utf8(output.stdout).unwrap();
     let angle: f64 = printed.trim().strip_prefix("2 ").unwrap().parse().unwrap();
     assert!((angle - end.state[0]).abs() < 1e-5 && angle.abs() > 0.01, "{printed} {:?}", end.state);
+
+    // The second block, behind the declarations of the first.
+    let further = page.split("```c\n").nth(2).unwrap().split("```").next().unwrap();
+    let (before, _) = program.split_once("    if (").unwrap();
+    let after = r#"printf("%d %llx\n", status, guen_bits(samples[2 * pendulum_STATES]));"#;
+    let text = format!("{before}    pendulum_prepare(c, k);\n{further}{after}\n    return 0;\n}}\n");
+    let output = Command::new(compile(&text, "page_adaptive")).output().unwrap();
+    let end = Dop853::new(1e-9, 1e-12).integrate(&pendulum, 0.0, &[1.0, 0.0], 2.0, go).unwrap();
+    let printed = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(printed.trim(), format!("0 {}", bits(&end.state[..1]).trim()));
 }
 
 #[test]
 fn constants_out_of_their_bounds_are_told_by_their_number() {
     let status = |c: [f64; 5]| {
-        let given = [&c[..], &[0.0; 11]].concat();
+        let given = [&c[..], &[0.0; 17]].concat();
         answers("cart", &[given])[0].split(' ').next().unwrap().parse::<i32>().unwrap()
     };
     assert_eq!(status([1.0, 1.0, 0.5, 1.0, 1.0]), 0);
@@ -345,4 +489,18 @@ fn places_have_names_and_texts_say_what_they_have() {
     assert!(text.contains("hoop_c_m = 0, /* kg */") && text.contains("hoop_s_u3b8 = 4,"));
     assert_eq!(text.matches("#include").count(), 1);
     assert!(!bead::SOURCE.steps && !bead::SOURCE.to_string().contains("rk4"));
+    assert!(
+        cart::SOURCE.to_string().contains("int cart_rk8(") && !cart::SOURCE.to_string().contains("dop853")
+    );
+    assert!(hoop::SOURCE.to_string().contains("int hoop_dop853("));
+    for (report, line) in [
+        (
+            cart::REPORT.to_string(),
+            "no DOP853 in the text of C: its steps would have to begin anew at the zeros of",
+        ),
+        (bead::REPORT.to_string(), "no steppers in the text of C: constraints of positions"),
+    ] {
+        assert!(report.contains(line), "{report}");
+    }
+    assert!(!hoop::REPORT.to_string().contains("text of C"));
 }

@@ -1,8 +1,8 @@
-//! Refusals of `provide source`: systems that have no right-hand side as a text of C.
+//! Texts of C (`provide source`): which systems have none, and which steppers the others have in theirs.
 
 use guen_symbolic::{Multivariate, Operation, Programs};
 
-use super::function;
+use super::{Level, function};
 use crate::diagnostics::{Fault, Faults};
 use crate::model::Model;
 use crate::syntax::Name;
@@ -35,5 +35,17 @@ pub(super) fn check(
     if let Some(supplied) = supplied {
         let text = format!("`{}` is a function of the program, which a text of C cannot call", supplied.name);
         faults.report(Fault::new(word.span(), text).help("declare it as an expression, `fn name(x) = e;`"));
+    }
+}
+
+impl Level {
+    /// Whether its text of C has steppers: it does not lead states back onto constraints of positions after steps.
+    pub fn steps_in_c(&self) -> bool {
+        self.selection.holonomic.is_empty()
+    }
+
+    /// Whether these choose their steps, too: at switches such steps would have to begin anew.
+    pub fn steps_adapt_in_c(&self) -> bool {
+        self.steps_in_c() && self.switches.is_empty()
     }
 }

@@ -20,8 +20,8 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, is_outline: bool
     }
     let name = name(subject);
     let program = if is_outline { String::new() } else { program(&name, subject, layout) };
-    let steps = subject.level.selection.holonomic.is_empty();
-    quote!(__guen::source!(#name, #program, #steps);)
+    let (steps, adaptive) = (subject.level.steps_in_c(), subject.level.steps_adapt_in_c());
+    quote!(__guen::source!(#name, #program, #steps, #adaptive);)
 }
 
 /// The word that everything in C begins with: the modules of the system and of the scene.

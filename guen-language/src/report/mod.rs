@@ -329,7 +329,25 @@ fn classification(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section
         .join(", "),
     );
     text.extend(reasons::of(subject));
+    text.extend(in_c(subject.level));
     Section::words("Classification", text)
+}
+
+/// The steppers that the text of C does not have, and why.
+fn in_c(level: &Level) -> Option<String> {
+    if !level.provides_source || level.steps_adapt_in_c() {
+        return None;
+    }
+    Some(if level.steps_in_c() {
+        let switches: Vec<String> = level.switches.iter().map(|switch| format!("`{switch}`")).collect();
+        format!(
+            "no DOP853 in the text of C: its steps would have to begin anew at the zeros of {}",
+            switches.join(", ")
+        )
+    } else {
+        "no steppers in the text of C: constraints of positions would have to be restored after steps"
+            .to_owned()
+    })
 }
 
 fn velocities(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {

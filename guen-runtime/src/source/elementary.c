@@ -230,4 +230,67 @@ GUEN_FUNCTION double guen_steps(double span, double size)
     return steps > 1.0 ? steps : 1.0;
 }
 
+/* The settings of a method that chooses its steps, and the work of a run, which it writes. */
+typedef struct {
+    /* The tolerances: an error e in an entry x counts as e / (atol + rtol |x|). */
+    double rtol, atol;
+    /* The first step to try; estimated if 0. */
+    double first_step;
+    /* The largest number of trial steps of a run. */
+    unsigned long long max_steps;
+    unsigned long long evaluations, accepted, rejected;
+} guen_adaptive;
+
+/* The logarithm to the base two of a positive finite number, and powers of two, to almost four digits: enough for steps. */
+GUEN_FUNCTION double guen_rough_log2(double x)
+{
+    unsigned long long bits = guen_bits(x), one = 0x3ff0000000000000ULL;
+    double m = guen_from_bits((bits & 0xfffffffffffffULL) | one) - 1.0;
+    double linear = (double)((long long)bits - (long long)one) * 2.2204460492503131e-16;
+    return linear + (m * (1.0 - m)) * ((0.438726 + -0.239058 * m) + 0.0821306 * (m * m));
+}
+
+GUEN_FUNCTION double guen_rough_exp2(double x)
+{
+    double shifted = x + 6755399441055744.0, f = x - (shifted - 6755399441055744.0);
+    double mantissa = 1.0 + f * ((0.693283 + 0.242211 * f) + 0.0550089 * (f * f));
+    return guen_from_bits(guen_bits(mantissa) + (guen_bits(shifted) << 52));
+}
+
+GUEN_FUNCTION double guen_rough_root(double x, double power)
+{
+    return x > 0.0 && guen_is_finite(x) ? guen_rough_exp2(guen_rough_log2(x) * (1.0 / power)) : x;
+}
+
+/* The factor on a step of order eight that is predicted to meet the tolerance, for one with an error of 2^(-margin/2). */
+GUEN_FUNCTION double guen_factor(double margin)
+{
+    return 0.8 * guen_rough_exp2(margin * (0.5 / 8.0));
+}
+
+/* The shortest step of a run that began at `origin`. */
+GUEN_FUNCTION double guen_shortest(double time, double origin)
+{
+    double elapsed = 10.0 * fabs(time - origin), clock = fabs(time);
+    return 2.2204460492503131e-16 * (elapsed > clock ? elapsed : clock);
+}
+
+/* Whether a comes before b in a run that goes backwards or not. */
+GUEN_FUNCTION int guen_earlier(double a, double b, int backwards)
+{
+    return a != b && (b - a < 0.0) == backwards;
+}
+
+/* Whether times run in order between two; they may repeat. */
+GUEN_FUNCTION int guen_in_order(double start, double end, int count, const double *times)
+{
+    int i;
+    for (i = 0; i <= count && count; ++i) {
+        double next = i < count ? times[i] : end, ahead = next - (i ? times[i - 1] : start);
+        if (!(ahead == 0.0 || (fabs(ahead) > 0.0 && (ahead > 0.0) == (end - start >= 0.0))))
+            return 0;
+    }
+    return 1;
+}
+
 #endif

@@ -8,6 +8,8 @@ use crate::steppers::explicit::tableau::Tableau;
 const ELEMENTARY: &str = include_str!("elementary.c");
 /// The steppers of a system, whose name stands in the place of `NAME`.
 const STEPPERS: &str = include_str!("steppers.c");
+/// DOP853, which follows.
+const ADAPTIVE: &str = include_str!("adaptive.c");
 
 /// The program of a system as C99, which `Display` writes: a header without includes beyond `math.h`.
 ///
@@ -21,17 +23,19 @@ const STEPPERS: &str = include_str!("steppers.c");
 /// | `name_rhs(c, k, t, s, u, r)` | the rates `r` of the state `s` |
 /// | `name_rk4_step`, `name_rk8_step` | one step of [`Rk4`](crate::steppers::Rk4) or [`Rk8`](crate::steppers::Rk8) |
 /// | `name_rk4`, `name_rk8` | steps of one size up to a time |
+/// | `name_dop853` | a run of [`Dop853`](crate::steppers::Dop853) with samples |
 ///
 /// Sums, products, quotients, square roots, sines and cosines have the bits that they have in Rust, and so have the steps of programs
 /// made of them; other functions are those of the platform's `math.h`. Compile with `-std=c99` or
 /// `-ffp-contract=off`: fused operations have other bits. Nothing is allocated, and nothing is stored between calls.
 ///
 /// `name_prepare` checks that constants are finite and keep the bounds `> 0`, `>= 0`, `!= 0` and limits that are numbers; the other checks
-/// are those of Rust's `prepare`. There are no steppers where constraints of positions have to be restored after steps.
+/// are those of Rust's `prepare`. There are no steppers where constraints of positions have to be restored after steps, and no DOP853
+/// where functions of the motion are piecewise.
 ///
 /// ```
 /// use guen_runtime::Source;
-/// let source = Source { name: "fall", program: "/* rates */\n", steps: false };
+/// let source = Source { name: "fall", program: "/* rates */\n", steps: false, adaptive: false };
 /// assert!(source.to_string().starts_with("/* fall: "));
 /// assert!(source.to_string().ends_with("/* rates */\n\n#endif\n"));
 /// ```
@@ -43,6 +47,8 @@ pub struct Source {
     pub program: &'static str,
     /// Whether the text has steppers.
     pub steps: bool,
+    /// Whether DOP853 is one of them: at [switches](crate::System::switches) Rust begins its steps anew.
+    pub adaptive: bool,
 }
 
 impl fmt::Display for Source {
@@ -55,17 +61,20 @@ impl fmt::Display for Source {
         writeln!(f, "#ifndef GUEN_SYSTEM_{name}\n#define GUEN_SYSTEM_{name}\n")?;
         writeln!(f, "{ELEMENTARY}\n{program}")?;
         if self.steps {
-            self.steppers(f)?;
+            let tableau = Tableau::new();
+            self.steppers(STEPPERS, &tableau, f)?;
+            if self.adaptive {
+                self.steppers(ADAPTIVE, &tableau, f)?;
+            }
         }
         f.write_str("#endif\n")
     }
 }
 
 impl Source {
-    fn steppers(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let tableau = Tableau::<f64>::new();
+    fn steppers(&self, text: &'static str, tableau: &Tableau, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let weights = || tableau.rows().into_iter().flatten();
-        let mut rest = STEPPERS;
+        let mut rest = text;
         // Words of capitals are places; everything between is the same for all systems.
         while let Some((before, word, after)) = next_word(rest) {
             f.write_str(before)?;
@@ -73,7 +82,12 @@ impl Source {
                 "NAME" => f.write_str(self.name)?,
                 "RK8_NODES" => numbers(f, tableau.nodes().iter())?,
                 "RK8_WEIGHTS" => numbers(f, weights())?,
-                _ => write!(f, "{}", weights().count())?,
+                "RK8_COUNT" => write!(f, "{}", weights().count())?,
+                "ERROR5_WEIGHTS" => numbers(f, tableau.error_weights()[0].iter())?,
+                "ERROR3_WEIGHTS" => numbers(f, tableau.error_weights()[1].iter())?,
+                "DENSE_NODES" => numbers(f, tableau.dense_nodes().iter())?,
+                "DENSE_WEIGHTS" => numbers(f, tableau.dense_rows().into_iter().flatten())?,
+                _ => numbers(f, tableau.dense_terms().iter().flatten())?,
             }
             rest = after;
         }
@@ -81,10 +95,22 @@ impl Source {
     }
 }
 
+/// The words that stand for something else.
+const PLACES: [&str; 9] = [
+    "NAME",
+    "RK8_NODES",
+    "RK8_WEIGHTS",
+    "RK8_COUNT",
+    "ERROR5_WEIGHTS",
+    "ERROR3_WEIGHTS",
+    "DENSE_NODES",
+    "DENSE_WEIGHTS",
+    "DENSE_TERMS",
+];
+
 /// The text before the first place, the place, and the text behind it.
 fn next_word(text: &'static str) -> Option<(&'static str, &'static str, &'static str)> {
-    let places = ["NAME", "RK8_NODES", "RK8_WEIGHTS", "RK8_COUNT"];
-    let found = places.into_iter().filter_map(|word| Some((text.find(word)?, word)));
+    let found = PLACES.into_iter().filter_map(|word| Some((text.find(word)?, word)));
     let (start, word) = found.min_by_key(|(start, _)| *start)?;
     Some((text.get(..start)?, word, text.get(start + word.len()..)?))
 }

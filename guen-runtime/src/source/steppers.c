@@ -20,40 +20,53 @@ GUEN_FUNCTION void NAME_rk4_step(
         end[i] = sixth * (f4[i] + (2.0 * (f2[i] + f3[i]) + f1[i])) + x[i];
 }
 
-/* A row of a method: x + h sum_j w_j f_j over `count` slopes, of which the j-th is number from[j]. */
+/* A row of a method: x + h sum_j w_j f_j over `count` slopes, of which the j-th is number from[j]. The last `late` of them are added one
+   by one, each with the product of h and its weight. */
 GUEN_FUNCTION void NAME_row(
-    const double *x, double h, int count, const double *w, const int *from, double f[][NAME_STATES], double *at)
+    const double *x, double h, int count, int late, const double *w, const int *from, double f[][NAME_STATES], double *at)
 {
     int i, j;
     for (i = 0; i < NAME_STATES; ++i) {
         double sum = w[0] * f[from[0]][i];
-        for (j = 1; j < count; ++j)
+        for (j = 1; j < count - late; ++j)
             sum += w[j] * f[from[j]][i];
         at[i] = h * sum + x[i];
+        for (; j < count; ++j)
+            at[i] += h * w[j] * f[from[j]][i];
     }
+}
+
+/* The stages of the Runge-Kutta method of order eight from x at t, where the slope is f[0]: the slopes f[1] to f[11], the argument `last` of
+   the last of them, and the state at the end. `early` says whether slopes of late stages are added one by one. */
+GUEN_FUNCTION void NAME_stages(
+    const double *c, const double *k, const double *u, double t, const double *x, double h, int early, double f[][NAME_STATES],
+    double *last, double *end)
+{
+    static const double nodes[11] = { RK8_NODES };
+    static const double weights[RK8_COUNT] = { RK8_WEIGHTS };
+    /* How many slopes each stage is made of, how many of them are late, and which they are. */
+    static const int counts[12] = { 1, 2, 2, 3, 3, 4, 5, 6, 7, 8, 9, 8 };
+    static const int late[12] = { 0, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2 };
+    static const int from[RK8_COUNT] = {
+        0, 0, 1, 0, 2, 0, 2, 3, 0, 3, 4, 0, 3, 4, 5, 0, 3, 4, 5, 6, 0, 3, 4, 5, 6, 7,
+        0, 3, 4, 5, 6, 7, 8, 0, 3, 4, 5, 6, 7, 8, 9, 0, 3, 4, 5, 6, 7, 8, 9, 10, 0, 5, 6, 7, 8, 9, 10, 11
+    };
+    int stage, place = 0;
+    for (stage = 0; stage < 11; ++stage) {
+        NAME_row(x, h, counts[stage], early ? late[stage] : 0, weights + place, from + place, f, last);
+        place += counts[stage];
+        NAME_rhs(c, k, t + nodes[stage] * h, last, u, f[stage + 1]);
+    }
+    NAME_row(x, h, counts[11], early ? late[11] : 0, weights + place, from + place, f, end);
 }
 
 /* One step of the Runge-Kutta method of order eight, from x at t; h may be negative. */
 GUEN_FUNCTION void NAME_rk8_step(
     const double *c, const double *k, const double *u, double t, const double *x, double h, double *end)
 {
-    const double nodes[11] = { RK8_NODES };
-    const double weights[RK8_COUNT] = { RK8_WEIGHTS };
-    /* How many slopes each stage is made of, and which. */
-    const int counts[12] = { 1, 2, 2, 3, 3, 4, 5, 6, 7, 8, 9, 8 };
-    const int from[RK8_COUNT] = {
-        0, 0, 1, 0, 2, 0, 2, 3, 0, 3, 4, 0, 3, 4, 5, 0, 3, 4, 5, 6, 0, 3, 4, 5, 6, 7,
-        0, 3, 4, 5, 6, 7, 8, 0, 3, 4, 5, 6, 7, 8, 9, 0, 3, 4, 5, 6, 7, 8, 9, 10, 0, 5, 6, 7, 8, 9, 10, 11
-    };
     double at[NAME_STATES], f[12][NAME_STATES];
-    int stage, place = 0;
     NAME_rhs(c, k, t, x, u, f[0]);
-    for (stage = 0; stage < 11; ++stage) {
-        NAME_row(x, h, counts[stage], weights + place, from + place, f, at);
-        place += counts[stage];
-        NAME_rhs(c, k, t + nodes[stage] * h, at, u, f[stage + 1]);
-    }
-    NAME_row(x, h, counts[11], weights + place, from + place, f, end);
+    NAME_stages(c, k, u, t, x, h, 0, f, at, end);
 }
 
 /* Steps of one size from *t to `until`, at t + h, t + 2 h, ..; the last is shortened. Moves t and x. Returns 0, or what stopped it, with the

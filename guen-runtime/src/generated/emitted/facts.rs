@@ -106,13 +106,14 @@ macro_rules! text_of_report {
     };
 }
 
-/// The right-hand side as a text of C: the word that its functions begin with, the programs, and whether there are steppers.
+/// The right-hand side as a text of C: the word that its functions begin with, the programs, whether there are steppers, and whether DOP853 is one.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! source {
-    ($name:literal, $program:literal, $steps:literal) => {
+    ($name:literal, $program:literal, $steps:literal, $adaptive:literal) => {
         /// The right-hand side as a text of C, which `Display` writes: a header without includes beyond `math.h`.
-        pub const SOURCE: $crate::Source = $crate::Source { name: $name, program: $program, steps: $steps };
+        pub const SOURCE: $crate::Source =
+            $crate::Source { name: $name, program: $program, steps: $steps, adaptive: $adaptive };
     };
 }
 

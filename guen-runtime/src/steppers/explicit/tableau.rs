@@ -100,6 +100,26 @@ impl<R: Real> Tableau<R> {
         [a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, b]
     }
 
+    /// The weights of the errors of order five and three: of stages 1 and 6 to 12.
+    pub(crate) fn error_weights(&self) -> [&[R; 8]; 2] {
+        [&self.e5, &self.e3]
+    }
+
+    /// The nodes of the three further stages of dense output.
+    pub(crate) fn dense_nodes(&self) -> &[R; 3] {
+        &self.c_dense
+    }
+
+    /// The weights of these stages: of the slopes that have some.
+    pub(crate) fn dense_rows(&self) -> [&[R; 8]; 3] {
+        [&self.a14, &self.a15, &self.a16]
+    }
+
+    /// The weights of the further terms of the polynomial: of stages 1 and 6 to 16, of which stage 13 is the slope at the end.
+    pub(crate) fn dense_terms(&self) -> &[[R; 12]; 4] {
+        &self.d
+    }
+
     /// Makes one step on trial from the state `x` at `t`, where the slope is `k1 = f(t, x)`.
     ///
     /// ```text
