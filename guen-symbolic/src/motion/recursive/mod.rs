@@ -15,6 +15,7 @@ mod axles;
 mod component;
 mod planar;
 mod sums;
+mod turned_pairs;
 mod unknowns;
 
 use self::component::Component;
@@ -137,8 +138,10 @@ fn assembled(
             nested.insert(u, measured);
         }
     }
+    let mut terms = terms.clone();
+    turned_pairs::merge(bench, system, &mut motion, &mut terms, &mut nested);
     let (equations, _) =
-        projection::assemble(bench, system, (0, &mut displacements), &mut motion, terms, &nested);
+        projection::assemble(bench, system, (0, &mut displacements), &mut motion, &terms, &nested);
     let equations = equations.driven(bench, generalised_forces);
     Some(Assembled { velocities: on_constraints.velocities, equations })
 }
