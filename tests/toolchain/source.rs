@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 use std::sync::LazyLock;
 
 use guen::steppers::{Cause, Dop853, Guard, Integration, Rk4, Rk8};
-use guen::{System, mechanical_system};
+use guen::{Simulate, System, mechanical_system};
 
 mechanical_system! {
     /// A hoop that rolls on a plane.
@@ -475,6 +475,18 @@ fn constants_out_of_their_bounds_are_told_by_their_number() {
     assert_eq!(status([1.0, 1.0, 0.5, 1.0, 0.0]), 5);
     // Finite, and its reciprocal is not.
     assert_eq!(status([1e-320, 1.0, 0.5, 1.0, 1.0]), -1);
+}
+
+#[test]
+fn systems_have_the_digests_of_their_declarations() {
+    let digests = [
+        <hoop::Prepared as Simulate<f64, 8>>::DECLARATION,
+        <hoop::tilt::Prepared as Simulate<f64, 4>>::DECLARATION,
+        <bead::Prepared as Simulate<f64, 3>>::DECLARATION,
+        <block::slides::Driven as Simulate<f64, 1>>::DECLARATION,
+        <pendulum::Driven as Simulate<f64, 2>>::DECLARATION,
+    ];
+    assert!((0..5).all(|i| digests[i] != 0 && !digests[..i].contains(&digests[i])), "{digests:x?}");
 }
 
 #[test]

@@ -190,7 +190,9 @@ pub(super) fn simulate(
     let switches = (!subject.level.switches.is_empty())
         .then(|| quote!(const SWITCHES: &'static [&'static str] = &#names;));
     let domain = domain.then(|| quote!(DOMAIN));
-    quote!(__guen::simulated! { #owner #size [#domain] [#(#units)*] #switches #positions })
+    let scene = subject.scene().map(|(scene, _)| scene);
+    let digest = proc_macro2::Literal::u64_unsuffixed(subject.whole.declaration.digest(scene));
+    quote!(__guen::simulated! { #owner #size #digest [#domain] [#(#units)*] #switches #positions })
 }
 
 /// The units of entries by their names; nothing where no unit is declared.

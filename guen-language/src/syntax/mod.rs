@@ -8,6 +8,7 @@
 
 mod component;
 mod contact;
+mod digest;
 mod display;
 mod expression;
 mod index;

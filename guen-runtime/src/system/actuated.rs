@@ -184,6 +184,7 @@ where
     const UNITS: &'static [&'static str] = S::Driven::UNITS;
     const DOMAIN: &'static [&'static str] = S::Driven::DOMAIN;
     const SWITCHES: &'static [&'static str] = S::Driven::SWITCHES;
+    const DECLARATION: u64 = S::Driven::DECLARATION;
 
     fn onto_constraints(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError>
     where

@@ -50,6 +50,11 @@ pub trait Simulate<R: Real, const N: usize>: System<R, N> {
     /// empty where they have no names.
     const SWITCHES: &'static [&'static str] = &[];
 
+    /// The digest of the declaration, by which a study in files finds that it was begun with another one; zero where there is no declaration.
+    /// The text of a system or scene enters as far as motions follow from it: documentation, layout, what is provided and the other scenes
+    /// do not.
+    const DECLARATION: u64 = 0;
+
     /// Moves a state onto the constraints on positions, as simulations do after every step: by [`project`](crate::project) in
     /// declared systems that have some. What [`restore`](System::restore) does, unless a system says more.
     ///
@@ -115,6 +120,7 @@ impl<R: Real, S: Simulate<R, N> + ?Sized, const N: usize> Simulate<R, N> for &S 
     const UNITS: &'static [&'static str] = S::UNITS;
     const DOMAIN: &'static [&'static str] = S::DOMAIN;
     const SWITCHES: &'static [&'static str] = S::SWITCHES;
+    const DECLARATION: u64 = S::DECLARATION;
 
     fn onto_constraints(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError>
     where
@@ -134,6 +140,7 @@ where
     const UNITS: &'static [&'static str] = S::UNITS;
     const DOMAIN: &'static [&'static str] = S::DOMAIN;
     const SWITCHES: &'static [&'static str] = S::SWITCHES;
+    const DECLARATION: u64 = S::DECLARATION;
 }
 
 impl Names {

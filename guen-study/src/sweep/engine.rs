@@ -19,6 +19,9 @@ pub(super) trait Engine: Send + Sync {
     /// The columns of a row, without those of the design.
     fn columns(&self) -> &[Column];
 
+    /// The digest of the declaration; zero where there is none.
+    fn declaration(&self) -> u64;
+
     /// The rows of a motion that have statistics of their own, one by one.
     fn groups(&self) -> usize;
 

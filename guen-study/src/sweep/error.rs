@@ -63,7 +63,16 @@ pub enum SweepError {
         /// The number of parts.
         parts: u64,
     },
-    /// The folder has the results of another sweep: of another declaration, design, method or closure.
+    /// The folder has the results of another declaration: the text of the system or scene was edited since.
+    OtherDeclaration {
+        /// The manifest in the folder.
+        path: PathBuf,
+        /// The digest of the declaration there: [`Simulate::DECLARATION`](guen_runtime::Simulate::DECLARATION).
+        found: String,
+        /// The digest of the declaration that was to be run.
+        expected: String,
+    },
+    /// The folder has the results of another sweep: of another design, method or closure.
     OtherSweep {
         /// The manifest in the folder.
         path: PathBuf,
@@ -135,6 +144,11 @@ impl fmt::Display for SweepError {
             Self::Busy { path, part, parts } => write!(
                 f,
                 "another process is at work on part {part} of {parts} in `{}`: wait for its end, or take another part or folder",
+                path.display()
+            ),
+            Self::OtherDeclaration { path, found, expected } => write!(
+                f,
+                "`{}` belongs to another declaration: its digest there is {found}, and that of the declared system is {expected}; take another folder, or undo the change of the declaration",
                 path.display()
             ),
             Self::OtherSweep { path, found, expected } => write!(

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::block::Block;
 use super::error::{SweepError, at};
-use super::plan::Plan;
+use super::plan::{DECLARATION, Plan};
 use super::record::Record;
 use super::rows::Rows;
 use super::sha256::Sha256;
@@ -51,6 +51,10 @@ pub(super) fn parts_of(path: &Path, text: &str, plan: &Plan) -> Result<u64, Swee
             (found != expected).then(|| (found.to_owned(), expected.to_owned()))
         });
         let (found, expected) = other.unwrap_or_default();
+        let digest = |line: &str| Some(line.strip_prefix(DECLARATION)?.strip_prefix(": ")?.to_owned());
+        if let (Some(found), Some(expected)) = (digest(&found), digest(&expected)) {
+            return Err(SweepError::OtherDeclaration { path: path.to_path_buf(), found, expected });
+        }
         return Err(SweepError::OtherSweep { path: path.to_path_buf(), found, expected });
     }
     parts.trim_end().parse().map_err(|_| SweepError::Corrupt {

@@ -185,6 +185,10 @@ where
         512
     }
 
+    fn declaration(&self) -> u64 {
+        S::DECLARATION
+    }
+
     fn groups(&self) -> usize {
         if self.keep == Keep::Samples { self.times.len() } else { 1 }
     }

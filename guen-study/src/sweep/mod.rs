@@ -141,8 +141,8 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Names the sweep, and with it what is swept: a sweep of another name does not go on in its folder. Of a declared system
-    /// `hoop::REPORT.to_string()` is a name that changes with the declaration's equations.
+    /// Names the sweep, and with it what is swept: a sweep of another name does not go on in its folder. A sweep of another declaration does
+    /// not either, whatever its name.
     pub fn named(self, name: impl Into<String>) -> Self {
         Self { name: name.into(), ..self }
     }
@@ -246,7 +246,7 @@ impl<'a> Sweep<'a> {
     /// # Errors
     ///
     /// [`SweepError::Unfinished`] if motions are missing, [`SweepError::Overlap`] if some are there twice, [`SweepError::Corrupt`] if a file is damaged,
-    /// [`SweepError::OtherSweep`] if a folder has another sweep, and errors of files.
+    /// [`SweepError::OtherDeclaration`] or [`SweepError::OtherSweep`] if a folder has another sweep, and errors of files.
     pub fn merge<P: AsRef<Path>>(
         &self,
         folders: impl IntoIterator<Item = P>,

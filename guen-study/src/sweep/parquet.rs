@@ -43,6 +43,7 @@ fn written(plan: &Plan, block: &Block) -> Result<Vec<u8>, ParquetError> {
     let mut metadata = vec![
         KeyValue::new("guen.sweep".to_owned(), plan.text.clone()),
         KeyValue::new("guen.digest".to_owned(), plan.digest.clone()),
+        KeyValue::new("guen.declaration".to_owned(), plan.declaration.clone()),
     ];
     metadata
         .extend(units.map(|column| KeyValue::new(format!("guen.unit.{}", column.name), column.unit.clone())));

@@ -42,7 +42,7 @@ impl Part<'_, '_> {
     ///
     /// - [`SweepError::Io`]: the disk is full, the folder cannot be written, or its file system has no locks.
     /// - [`SweepError::Busy`]: another process is at work on this part.
-    /// - [`SweepError::OtherSweep`], [`SweepError::OtherParts`]: the folder belongs to something else.
+    /// - [`SweepError::OtherDeclaration`], [`SweepError::OtherSweep`], [`SweepError::OtherParts`]: the folder belongs to something else.
     /// - [`SweepError::NotReproducible`]: a chunk that had to be computed again has other bits.
     /// - What is wrong with the design or the columns.
     pub fn run_in(&self, folder: impl AsRef<Path>) -> Result<PartReport, SweepError> {

@@ -13,6 +13,8 @@ use super::statistics::{self, Bins};
 
 /// The first line of every manifest.
 const VERSION: &str = "guen sweep, version 1";
+/// The word of the line with the digest of the declaration: the first, so that nothing else is told of another one.
+pub(super) const DECLARATION: &str = "declaration";
 /// The most motions of a chunk, and the chunks that there are below that and above what is worth one, unless a sweep says otherwise.
 const MOST: u64 = 1 << 14;
 const CHUNKS: u64 = 256;
@@ -29,6 +31,12 @@ pub(super) struct Plan {
     pub(super) text: String,
     /// The digest of the text.
     pub(super) digest: String,
+    /// The digest of the declaration.
+    #[cfg_attr(
+        not(feature = "parquet"),
+        allow(dead_code, reason = "it goes into files of Parquet; the text has it, too")
+    )]
+    pub(super) declaration: String,
 }
 
 impl Plan {
@@ -54,6 +62,7 @@ impl Plan {
             columns.iter().map(named).collect::<Vec<String>>().join(", ")
         };
         for (word, value) in [
+            (DECLARATION, declaration(sweep.engine.declaration())),
             ("name", one_line(&sweep.name)),
             ("design", one_line(&design.text())),
             ("kept", one_line(&sweep.engine.text())),
@@ -66,7 +75,8 @@ impl Plan {
             let _ = writeln!(text, "{word}: {value}");
         }
         let digest = Sha256::of(text.as_bytes());
-        Ok(Self { design, axes, kept, statistics, chunk, text, digest })
+        let declaration = declaration(sweep.engine.declaration());
+        Ok(Self { design, axes, kept, statistics, chunk, text, digest, declaration })
     }
 
     /// The number of chunks.
@@ -83,6 +93,11 @@ impl Plan {
     pub(super) fn points(&self) -> PointsAt<'_> {
         self.design.points_at()
     }
+}
+
+/// The digest of a declaration in words.
+pub(super) fn declaration(digest: u64) -> String {
+    if digest == 0 { "none".to_owned() } else { format!("{digest:016x}") }
 }
 
 /// A text without line breaks. Long ones, as reports are, become their first words and a digest.

@@ -34,6 +34,10 @@ where
         16
     }
 
+    fn declaration(&self) -> u64 {
+        S::DECLARATION
+    }
+
     fn groups(&self) -> usize {
         1
     }

@@ -293,6 +293,53 @@ fn a_folder_of_another_sweep_is_refused() {
     assert!(matches!(ends(60).part(2, 2), Err(SweepError::Part { part: 2, parts: 2 })));
 }
 
+/// A system as the macro generates it of a declaration with this digest.
+#[derive(Clone)]
+struct Declared<const DIGEST: u64>(Oscillator<f64>);
+
+impl<const DIGEST: u64> System<f64, 2> for Declared<DIGEST> {
+    fn rhs(&self, t: f64, state: &[f64; 2]) -> [f64; 2] {
+        self.0.rhs(t, state)
+    }
+}
+
+impl<const DIGEST: u64> Simulate<f64, 2> for Declared<DIGEST> {
+    type State = [f64; 2];
+    const DECLARATION: u64 = DIGEST;
+}
+
+#[test]
+fn a_folder_of_another_declaration_is_refused_and_stays() {
+    fn declared<'a, const DIGEST: u64>() -> Sweep<'a> {
+        Sweep::over(design(60), |point| {
+            let (system, start) = member(point.get("k")?, point.get("q")?);
+            Ok((Declared::<DIGEST>(system), start))
+        })
+        .simulations([("q", "rad")], |simulation| simulation.run(0.0..1.0).map(|motion| [motion.end()[0]]))
+        .with_chunk(20)
+        .silent()
+    }
+    let folder = Folder::new("declaration");
+    declared::<0x2a>().part(0, 2).unwrap().run_in(&folder.0).unwrap();
+    let expected = files(&folder.0);
+    let manifest = std::fs::read_to_string(folder.below("sweep.txt")).unwrap();
+    assert_eq!(manifest.lines().nth(1), Some("declaration: 000000000000002a"));
+    // The rates are the same: only the text of the declaration is another.
+    for error in [
+        declared::<0x2b>().part(0, 2).unwrap().run_in(&folder.0).unwrap_err(),
+        // The name is another, too.
+        declared::<0x2b>().named("edited").part(1, 2).unwrap().run_in(&folder.0).unwrap_err(),
+        declared::<0x2b>().merge([&folder.0], folder.below("x")).unwrap_err(),
+    ] {
+        let SweepError::OtherDeclaration { found, expected, .. } = &error else { panic!("{error}") };
+        assert_eq!([found.as_str(), expected], ["000000000000002a", "000000000000002b"]);
+    }
+    assert_eq!(differing(&files(&folder.0), &expected), NONE);
+    let report = declared::<0x2a>().part(0, 2).unwrap().run_in(&folder.0).unwrap();
+    assert_eq!((report.found, report.computed), (2, 0));
+    assert_eq!(ends(60).engine.declaration(), 0);
+}
+
 #[test]
 fn parts_that_are_missing_or_there_twice_are_told() {
     let folder = Folder::new("missing");

@@ -130,16 +130,17 @@ macro_rules! uses {
     };
 }
 
-/// The trait `Simulate` of what steppers integrate: its states have named fields. With the number of states, the names of the
+/// The trait `Simulate` of what steppers integrate: its states have named fields. With the number of states, the digest of the declaration, the names of the
 /// functions that must not vanish where there are some, the units of the states where there are some, and what leads back onto constraints on positions.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! simulated {
-    ($([$($F:ident $N:literal)*])? $Owner:ident $size:literal [$($domain:ident)?] [$($unit:literal)*] $($positions:tt)*) => {
+    ($([$($F:ident $N:literal)*])? $Owner:ident $size:literal $digest:literal [$($domain:ident)?] [$($unit:literal)*] $($positions:tt)*) => {
         impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> $crate::Simulate<R, $size> for $Owner<R $($(, $F)*)?> {
             type State = State<R>;
             const STATES: &'static [&'static str] = &State::<f64>::NAMES;
             const UNITS: &'static [&'static str] = &[$($unit),*];
+            const DECLARATION: ::core::primitive::u64 = $digest;
             $(const DOMAIN: &'static [&'static str] = &$domain;)?
             $($positions)*
         }
