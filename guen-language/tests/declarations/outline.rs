@@ -195,9 +195,9 @@ fn forms_need_not_be_as_many_as_coordinates() {
             "system S {{ functions {{ f(x); }} coordinates {{ x }} parameters {{ u = dot(x); }} kinetic_energy = u^2; potential_energy = f(x) + y; {further} }}"
         ))
     };
-    assert!(written("provide source;").contains("source!(\"s\",\"\",true)"));
+    assert!(written("provide source;").contains("source!(\"s\",\"\",true,true)"));
     let in_scene = written("contacts { floor: gap = x; } scene T { provide source; }");
-    assert!(in_scene.contains("source!(\"s_t\",\"\",true)"), "{in_scene}");
+    assert!(in_scene.contains("source!(\"s_t\",\"\",true,true)"), "{in_scene}");
     // Without an equation of motion there is nothing to carry.
     assert!(carried("").contains("structS<R=f64>"));
 }
