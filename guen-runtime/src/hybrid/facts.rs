@@ -95,8 +95,10 @@ where
                 false => is_rounding(rates[row]) || is_momentary(&row),
             };
             let normal_still = closed || element.normal.is_some_and(still);
+            // A slip before a contact closes is known to roundings, too.
             let slip_still = !anew && (state == ElementState::Stick || fired.slip[c])
-                || (anew || !state.slips()) && vanish(element.tangential)
+                || anew && vanish(element.tangential)
+                || !state.slips() && element.tangential.iter().all(|&row| is_rounding(rates[row]))
                 || rounds(element.tangential)
                 || !element.tangential.is_empty() && element.tangential.iter().all(is_momentary);
             let rate = |still| if still { Rate::Still } else { Rate::Moving };

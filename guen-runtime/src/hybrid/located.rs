@@ -228,6 +228,10 @@ where
             -self.rate(function, t)
         })
         .after;
+        // Before the mode has settled a slip that leaves zero hardly accelerated is as small as roundings of its polynomial.
+        if self.first && bottom - self.start <= SETTLING * self.start.abs() {
+            return None;
+        }
         let value = self.value(function, bottom);
         match self.side(function, bottom) {
             -1 => {

@@ -199,6 +199,10 @@ where
         like: &Struck<W, C>,
     ) -> Option<(Struck<W, C>, Result<Mode<C>, Unselected<C>>)> {
         let closing = impact.closing(like)?;
+        // Bodies that a closing without flights would push on, as where contacts hold each other: their flights are real.
+        if closing.energy > 0.0 {
+            return None;
+        }
         let state = moved(&self.state, &closing.impulses, &self.free().responses);
         let known: [Known; C] = from_fn(|c| Known {
             touches: impact.takes_part[c] && H::ELEMENTS[c].kind != Kind::Grip,

@@ -6,6 +6,7 @@ use core::array::from_fn;
 use crate::hybrid::element::Kind;
 use crate::hybrid::error::HybridCause;
 use crate::hybrid::in_mode::{InMode, Leaning, motion_series};
+use crate::hybrid::located::NOISE;
 use crate::hybrid::mode::{ElementState, Mode};
 use crate::hybrid::system::HybridSystem;
 use crate::numbers::power_series::PowerSeries;
@@ -72,6 +73,8 @@ impl<const C: usize> From<Unselected<C>> for HybridCause<C> {
 const HIGHEST: usize = 5;
 /// The part of what a derivative is made of below which it vanishes: what integration and location leave of a zero.
 const VANISHING: f64 = 1e-9;
+/// That part where values are taken as they are: what roundings leave of a zero.
+const ROUNDING: f64 = NOISE * 0.5 * f64::EPSILON;
 /// Modes that are compared at one transition.
 const MAX_CANDIDATES: usize = 1 << 14;
 
@@ -88,17 +91,21 @@ pub(super) enum Sign {
 
 /// Whether a number vanishes up to what it is made of.
 pub(super) fn vanishes(number: RunningError<f64>) -> bool {
-    number.value.abs() <= VANISHING * number.error
+    vanishes_within(number, VANISHING)
 }
 
-/// The sign of a function, from the term of this order on.
-fn sign(jet: &Jet, from: usize, order: usize) -> Sign {
+fn vanishes_within(number: RunningError<f64>, part: f64) -> bool {
+    number.value.abs() <= part * number.error
+}
+
+/// The sign of a function, from the term of this order on; terms vanish within a part of what they are made of.
+fn sign(jet: &Jet, from: usize, order: usize, part: f64) -> Sign {
     for k in from..=order.min(jet.order()) {
         let term = jet.coefficient(k);
         if term.value.is_nan() {
             return Sign::Negative;
         }
-        if !vanishes(term) {
+        if !vanishes_within(term, part) {
             return if term.value > 0.0 { Sign::Positive } else { Sign::Negative };
         }
     }
@@ -139,15 +146,44 @@ fn candidates(kind: Kind, components: usize, known: &Known, sign: f64) -> ([Elem
     }
 }
 
-/// The part of the largest force by which forces may leave their cones where two modes are compared.
+/// The part of the largest force or acceleration by which values may break the laws of a mode before they contradict it.
 const VIOLATED: f64 = 1e-6;
 
-/// Selects the mode that goes on from a time and state.
+/// Selects the mode that goes on from a time and state. Where what is small counts as zero no mode may fit, or one that the values
+/// themselves contradict, as where rows nearly depend on each other: then only roundings count as zero.
 pub(super) fn select<H, const N: usize, const W: usize, const C: usize, const S: usize>(
     system: H,
     switches: [f64; S],
     (t, state): (f64, &[f64; N]),
     known: &[Known; C],
+) -> Result<InMode<H, N, W, C, S>, Unselected<C>>
+where
+    H: HybridSystem<N, W, C, S> + Clone,
+{
+    let within = |part| select_within(system.clone(), switches, (t, state), known, part);
+    let violation = |mode: &InMode<H, N, W, C, S>| mode.violation(t, state, known);
+    let first = within(VANISHING);
+    let contradicted = match &first {
+        Ok(mode) => violation(mode),
+        Err(Unselected::Inconsistent) => f64::INFINITY,
+        Err(_) => 0.0,
+    };
+    if contradicted <= VIOLATED {
+        return first;
+    }
+    match within(ROUNDING) {
+        Ok(mode) if violation(&mode) < contradicted => Ok(mode),
+        _ => first,
+    }
+}
+
+/// Selects a mode where terms vanish within a part of what they are made of.
+fn select_within<H, const N: usize, const W: usize, const C: usize, const S: usize>(
+    system: H,
+    switches: [f64; S],
+    (t, state): (f64, &[f64; N]),
+    known: &[Known; C],
+    part: f64,
 ) -> Result<InMode<H, N, W, C, S>, Unselected<C>>
 where
     H: HybridSystem<N, W, C, S> + Clone,
@@ -171,7 +207,7 @@ where
             state
         }));
         let mut in_mode = InMode::with_switches(system.clone(), mode, switches, t, state);
-        if !in_mode.lean(t, state, known) || !in_mode.is_consistent(t, state, known) {
+        if !in_mode.lean(t, state, known) || !in_mode.is_consistent(t, state, known, part) {
             continue;
         }
         let Some(before) = found else {
@@ -179,7 +215,7 @@ where
             continue;
         };
         // What jets could not tell from zero, because rows nearly depend on each other, the values themselves may.
-        let [first, second] = [&before, &in_mode].map(|mode| mode.violation(t, state) > VIOLATED);
+        let [first, second] = [&before, &in_mode].map(|mode| mode.violation(t, state, known) > VIOLATED);
         let is_first = if first == second { preferred(known, &before, &in_mode) } else { Some(second) };
         found = match is_first {
             Some(true) => Some(before),
@@ -217,15 +253,27 @@ impl<H, const N: usize, const W: usize, const C: usize, const S: usize> InMode<H
 where
     H: HybridSystem<N, W, C, S>,
 {
-    /// The amount by which forces of contacts pull, or leave their cones, relative to the largest force; zero where they are not determined.
-    fn violation(&self, t: f64, state: &[f64; N]) -> f64 {
+    /// The amount by which forces of contacts pull, or leave their cones, relative to the largest force, or by which contacts that open, or begin to
+    /// slip, accelerate the other way, relative to the largest acceleration; zero where forces are not determined.
+    fn violation(&self, t: f64, state: &[f64; N], known: &[Known; C]) -> f64 {
         if self.is_redundant() {
             return 0.0;
         }
         let motion = self.reactions(t, state);
-        let largest = motion.reactions.iter().fold(f64::MIN_POSITIVE, |most, force| most.max(force.abs()));
+        let accelerations = motion.row_accelerations();
+        let most =
+            |values: &[f64; W]| values.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()));
+        let (largest, fastest) = (most(&motion.reactions), most(&motion.free.biases));
         let mut worst: f64 = 0.0;
         for (c, element) in H::ELEMENTS.iter().enumerate() {
+            let still = known[c].touches && known[c].normal == Rate::Still;
+            if let (ElementState::Open, Some(row)) = (self.mode.0[c], element.normal.filter(|_| still)) {
+                worst = worst.max(-accelerations[row] / fastest);
+            }
+            if self.mode.0[c].slips() && known[c].slip == Rate::Still {
+                let along = |&row: &usize| motion.directions[row] * accelerations[row];
+                worst = worst.max(-element.tangential.iter().map(along).sum::<f64>() / fastest);
+            }
             if self.mode.0[c].is_closed()
                 && let Some(row) = element.normal.filter(|_| element.kind != Kind::Latch)
             {
@@ -255,13 +303,13 @@ where
         let function = self.system.signals(time, &series)[s];
         let is_number = |k: usize| function.coefficient(k).value.is_finite();
         let known = (1..=HIGHEST).take_while(|k| is_number(*k)).count();
-        sign(&function, 1, known)
+        sign(&function, 1, known, VANISHING)
     }
 
     /// Whether every inequality of the mode holds in it right after this time.
-    fn is_consistent(&self, t: f64, state: &[f64; N], known: &[Known; C]) -> bool {
+    fn is_consistent(&self, t: f64, state: &[f64; N], known: &[Known; C], part: f64) -> bool {
         for order in 1..=HIGHEST {
-            match self.verdict(t, state, known, order) {
+            match self.verdict(t, state, known, order, part) {
                 Verdict::Open if order < HIGHEST => {}
                 // What vanishes identically: margins hold, gaps and slips that never open do not.
                 Verdict::Open | Verdict::Inconsistent => return false,
@@ -271,13 +319,13 @@ where
         false
     }
 
-    fn verdict(&self, t: f64, state: &[f64; N], known: &[Known; C], order: usize) -> Verdict {
+    fn verdict(&self, t: f64, state: &[f64; N], known: &[Known; C], order: usize, part: f64) -> Verdict {
         let series = self.jets(t, state, order);
         let time = Jet::line(RunningError::once(t), RunningError::exact(1.0));
         let motion = self.reactions(time, &series);
         let mut verdict = Verdict::Consistent;
         // A function that must hold: `strict` where one that vanishes identically does not.
-        let mut demand = |jet: &Jet, from: usize, strict: bool| match sign(jet, from, order) {
+        let mut demand = |jet: &Jet, from: usize, strict: bool| match sign(jet, from, order, part) {
             Sign::Positive => {}
             Sign::Negative => verdict = Verdict::Inconsistent,
             Sign::Unknown if (order < HIGHEST || strict) && verdict == Verdict::Consistent => {
