@@ -2,9 +2,14 @@
 //! and never in an exhausted stack or a compiler that seems to hang.
 
 /// Deepest nesting of an expression: parentheses, calls, signs, powers and `.name` count one each. The stages
-/// walk expressions recursively; a level costs the parser about six frames, so this stays far below the stack of
-/// a compiler thread.
+/// walk expressions recursively; a level costs the parser some eight frames, 4 to 8 kB without optimisation, so this stays below half of a thread of 2 MB.
 pub const MAX_DEPTH: usize = 128;
+
+/// The most operations of an index, parentheses and signs among them: `q[2*(i + 1)]` has three.
+pub const MAX_INDEX_OPERATIONS: usize = 64;
+
+/// The most operations of a condition on indices, those of its indices aside.
+pub const MAX_CONDITION_OPERATIONS: usize = 64;
 
 /// The most coordinates of a system: the brackets grow as the cube of this number.
 pub const MAX_COORDINATES: usize = 200;
@@ -29,6 +34,9 @@ pub const MAX_DERIVATIVES: usize = 4;
 
 /// The most loops and choices inside of each other.
 pub const MAX_NESTED_LOOPS: usize = 16;
+
+/// The most branches of a choice: one, and one for each `else if`.
+pub const MAX_BRANCHES: usize = 64;
 
 /// The most entries of a declaration once its loops are unfolded.
 pub const MAX_UNFOLDED: usize = 1_000_000;

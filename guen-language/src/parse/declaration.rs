@@ -297,7 +297,7 @@ fn count(cursor: &mut Cursor, faults: &mut Faults, docs: Docs) -> Result<Count, 
     let name = name(cursor, faults, "the name of a count")?;
     let span = cursor.span();
     let value = equals(cursor, faults, &format!("`{name}`"), "a count reads `count n = 20;`")
-        .and_then(|_| index::sum(cursor, faults, 0));
+        .and_then(|_| index::index(cursor, faults));
     match value {
         Ok(value) => {
             semicolon(cursor, faults, |_| false);

@@ -5,7 +5,7 @@ use proc_macro2::{Delimiter, Group, Literal, Span, TokenTree};
 use super::cursor::Cursor;
 use super::names::name;
 use crate::diagnostics::{Fault, Faults, Reported};
-use crate::limits::MAX_DEPTH;
+use crate::limits::{MAX_CONDITION_OPERATIONS, MAX_INDEX_OPERATIONS};
 use crate::names::is_rust_keyword;
 use crate::syntax::{
     Comparison, Condition, Index, IndexExpression, IndexKind, IndexOperator, Name, Range, WrittenIndex,
@@ -71,7 +71,7 @@ fn indices(group: &Group, faults: &mut Faults) -> Vec<IndexExpression> {
     let mut found = Vec::new();
     while !cursor.is_end() {
         let span = cursor.span();
-        let index = sum(&mut cursor, faults, 0);
+        let index = index(&mut cursor, faults);
         let is_whole = index.is_ok();
         found.push(index.unwrap_or_else(|Reported { .. }| missing(span)));
         if is_whole && !cursor.is_end() && !cursor.is_punct(',') {
@@ -104,12 +104,12 @@ pub(crate) fn range(cursor: &mut Cursor, faults: &mut Faults) -> Result<Range, R
         let fault = Fault::new(cursor.span(), "`range(..)` is not a range of this language");
         return Err(faults.report(fault.help(HELP_RANGE)));
     }
-    let start = sum(cursor, faults, 0)?;
+    let start = index(cursor, faults)?;
     let span = cursor.span();
     if cursor.is_pair('.', '.') {
         cursor.skip(2);
         let is_closed = cursor.eat('=').is_some();
-        return Ok(Range { start, end: sum(cursor, faults, 0)?, is_closed, span });
+        return Ok(Range { start, end: index(cursor, faults)?, is_closed, span });
     }
     let fault = Fault::new(span, format!("expected `..`, found {}", cursor.found()));
     if cursor.is_punct(':') && !cursor.is_pair(':', ':') {
@@ -118,53 +118,72 @@ pub(crate) fn range(cursor: &mut Cursor, faults: &mut Faults) -> Result<Range, R
     Err(faults.report(fault.help(HELP_RANGE)))
 }
 
-/// Conditions that `||` joins.
+/// A condition on indices.
 pub(crate) fn condition(cursor: &mut Cursor, faults: &mut Faults) -> Result<Condition, Reported> {
-    let mut left = all(cursor, faults)?;
+    any(cursor, faults, &mut Budget::new(MAX_CONDITION_OPERATIONS, "condition"))
+}
+
+/// Conditions that `||` joins.
+fn any(cursor: &mut Cursor, faults: &mut Faults, budget: &mut Budget) -> Result<Condition, Reported> {
+    let mut left = all(cursor, faults, budget)?;
     while cursor.is_pair('|', '|') {
+        budget.spend(cursor.span(), faults)?;
         cursor.skip(2);
-        left = Condition::Or(Box::new(left), Box::new(all(cursor, faults)?));
+        left = Condition::Or(Box::new(left), Box::new(all(cursor, faults, budget)?));
     }
     Ok(left)
 }
 
 /// Conditions that `&&` joins.
-fn all(cursor: &mut Cursor, faults: &mut Faults) -> Result<Condition, Reported> {
-    let mut left = single(cursor, faults)?;
+fn all(cursor: &mut Cursor, faults: &mut Faults, budget: &mut Budget) -> Result<Condition, Reported> {
+    let mut left = single(cursor, faults, budget)?;
     while cursor.is_pair('&', '&') {
+        budget.spend(cursor.span(), faults)?;
         cursor.skip(2);
-        left = Condition::And(Box::new(left), Box::new(single(cursor, faults)?));
+        left = Condition::And(Box::new(left), Box::new(single(cursor, faults, budget)?));
     }
     Ok(left)
 }
 
-fn single(cursor: &mut Cursor, faults: &mut Faults) -> Result<Condition, Reported> {
+fn single(cursor: &mut Cursor, faults: &mut Faults, budget: &mut Budget) -> Result<Condition, Reported> {
     cursor.open_invisible();
     if cursor.is_punct('!') && !cursor.is_pair('!', '=') {
+        budget.spend(cursor.span(), faults)?;
         cursor.skip(1);
-        return Ok(Condition::Not(Box::new(single(cursor, faults)?)));
+        return Ok(Condition::Not(Box::new(single(cursor, faults, budget)?)));
     }
     // Parentheses hold a condition where a comparison stands inside of them.
     if let Some(group) = cursor.group_at(0, Delimiter::Parenthesis).filter(|group| holds_comparison(group)) {
+        budget.spend(group.span_open(), faults)?;
         let mut inside = Cursor::inside(&group.clone());
         cursor.skip(1);
-        let inner = condition(&mut inside, faults)?;
-        if !inside.is_end() {
-            let text = format!("expected `)`, found {}", inside.found());
-            return Err(faults.report(Fault::new(inside.span(), text)));
-        }
-        return Ok(inner);
+        let inner = any(&mut inside, faults, budget)?;
+        return inside.is_end().then_some(inner).ok_or_else(|| behind(&inside, faults, "`)`", None));
     }
-    let left = sum(cursor, faults, 0)?;
+    let left = index(cursor, faults)?;
     let comparison = comparison(cursor, faults)?;
-    Ok(Condition::Comparison(left, comparison, sum(cursor, faults, 0)?))
+    Ok(Condition::Comparison(left, comparison, index(cursor, faults)?))
 }
 
+/// Reports what stands behind the end of something in parentheses.
+fn behind(cursor: &Cursor, faults: &mut Faults, expected: &str, help: Option<&str>) -> Reported {
+    let fault = Fault::new(cursor.span(), format!("expected {expected}, found {}", cursor.found()));
+    faults.report(help.iter().fold(fault, |fault, help| fault.help(help)))
+}
+
+/// Whether a comparison stands in parentheses, in further ones perhaps.
 fn holds_comparison(group: &Group) -> bool {
-    group.stream().into_iter().any(|token| match token {
-        TokenTree::Punct(mark) => matches!(mark.as_char(), '<' | '>' | '=' | '!'),
-        _ => false,
-    })
+    let mut groups = vec![group.clone()];
+    while let Some(group) = groups.pop() {
+        for token in group.stream() {
+            match token {
+                TokenTree::Punct(mark) if matches!(mark.as_char(), '<' | '>' | '=' | '!') => return true,
+                TokenTree::Group(inner) if inner.delimiter() == Delimiter::Parenthesis => groups.push(inner),
+                _ => {}
+            }
+        }
+    }
+    false
 }
 
 fn comparison(cursor: &mut Cursor, faults: &mut Faults) -> Result<Comparison, Reported> {
@@ -195,9 +214,45 @@ fn comparison(cursor: &mut Cursor, faults: &mut Faults) -> Result<Comparison, Re
     }))
 }
 
+/// The operations that an index or a condition may still have. They nest to the left and in parentheses, and later stages walk them recursively:
+/// their number bounds the stack of both.
+struct Budget {
+    left: usize,
+    most: usize,
+    what: &'static str,
+}
+
+impl Budget {
+    fn new(most: usize, what: &'static str) -> Self {
+        Budget { left: most, most, what }
+    }
+
+    /// Takes one operation off, as long as there are any.
+    fn spend(&mut self, span: Span, faults: &mut Faults) -> Result<(), Reported> {
+        match self.left.checked_sub(1) {
+            Some(left) => {
+                self.left = left;
+                Ok(())
+            }
+            None => Err(self.overspent(span, faults)),
+        }
+    }
+
+    fn overspent(&self, span: Span, faults: &mut Faults) -> Reported {
+        let (what, most) = (self.what, self.most);
+        let article = if what.starts_with('i') { "an" } else { "a" };
+        let fault = Fault::new(span, format!("{article} {what} of more than {most} operations"));
+        faults.report(fault.note("parentheses and signs count as operations"))
+    }
+}
+
 /// An expression of whole numbers; it ends at the first token that cannot continue it.
-pub(crate) fn sum(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Parsed {
-    let mut left = product(cursor, faults, depth)?;
+pub(crate) fn index(cursor: &mut Cursor, faults: &mut Faults) -> Parsed {
+    sum(cursor, faults, &mut Budget::new(MAX_INDEX_OPERATIONS, "index"))
+}
+
+fn sum(cursor: &mut Cursor, faults: &mut Faults, budget: &mut Budget) -> Parsed {
+    let mut left = product(cursor, faults, budget)?;
     loop {
         let operator = match cursor.peek() {
             Some(TokenTree::Punct(mark)) if mark.as_char() == '+' => IndexOperator::Plus,
@@ -205,13 +260,14 @@ pub(crate) fn sum(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Par
             _ => return Ok(left),
         };
         let span = cursor.span();
+        budget.spend(span, faults)?;
         cursor.skip(1);
-        left = operation(left, operator, span, product(cursor, faults, depth)?);
+        left = operation(left, operator, span, product(cursor, faults, budget)?);
     }
 }
 
-fn product(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Parsed {
-    let mut left = unary(cursor, faults, depth)?;
+fn product(cursor: &mut Cursor, faults: &mut Faults, budget: &mut Budget) -> Parsed {
+    let mut left = unary(cursor, faults, budget)?;
     loop {
         let operator = match cursor.peek() {
             Some(TokenTree::Punct(mark)) if mark.as_char() == '*' => IndexOperator::Times,
@@ -220,8 +276,9 @@ fn product(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Parsed {
             _ => return Ok(left),
         };
         let span = cursor.span();
+        budget.spend(span, faults)?;
         cursor.skip(1);
-        left = operation(left, operator, span, unary(cursor, faults, depth)?);
+        left = operation(left, operator, span, unary(cursor, faults, budget)?);
     }
 }
 
@@ -234,17 +291,29 @@ fn operation(
     IndexExpression { span, kind: IndexKind::Operation(Box::new(left), operator, Box::new(right)) }
 }
 
-fn unary(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Parsed {
+fn unary(cursor: &mut Cursor, faults: &mut Faults, budget: &mut Budget) -> Parsed {
     cursor.open_invisible();
     let span = cursor.span();
-    if depth > MAX_DEPTH {
-        let text = format!("the index is nested more than {MAX_DEPTH} levels deep");
-        return Err(faults.report(Fault::new(span, text)));
-    }
     if cursor.eat('-').is_some() {
-        let operand = unary(cursor, faults, depth + 1)?;
+        budget.spend(span, faults)?;
+        let operand = unary(cursor, faults, budget)?;
         return Ok(IndexExpression { span, kind: IndexKind::Negation(Box::new(operand)) });
     }
+    if let Some(group) = cursor.eat_group(Delimiter::Parenthesis) {
+        budget.spend(span, faults)?;
+        let mut inside = Cursor::inside(&group);
+        let value = sum(&mut inside, faults, budget)?;
+        return match inside.is_end() {
+            true => Ok(value),
+            false => Err(behind(&inside, faults, "`)` or an operator", Some(HELP_NUMBER))),
+        };
+    }
+    operand(cursor, faults)
+}
+
+/// A number or a name.
+fn operand(cursor: &mut Cursor, faults: &mut Faults) -> Parsed {
+    let span = cursor.span();
     match cursor.peek().cloned() {
         Some(TokenTree::Literal(literal)) => {
             cursor.skip(1);
@@ -259,16 +328,6 @@ fn unary(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Parsed {
                 return Err(faults.report(fault.help(HELP_NUMBER)));
             }
             Ok(IndexExpression { span, kind: IndexKind::Name(Name::new(ident)) })
-        }
-        Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis => {
-            cursor.skip(1);
-            let mut inside = Cursor::inside(&group);
-            let value = sum(&mut inside, faults, depth + 1)?;
-            if inside.is_end() {
-                return Ok(value);
-            }
-            let text = format!("expected `)` or an operator, found {}", inside.found());
-            Err(faults.report(Fault::new(inside.span(), text).help(HELP_NUMBER)))
         }
         _ => {
             let fault = Fault::new(span, format!("expected a whole number, found {}", cursor.found()));

@@ -6,7 +6,7 @@ use super::cursor::Cursor;
 use super::index::{condition, range};
 use super::names::name;
 use crate::diagnostics::{Fault, Faults, Reported};
-use crate::limits::MAX_NESTED_LOOPS;
+use crate::limits::{MAX_BRANCHES, MAX_NESTED_LOOPS};
 use crate::syntax::{Choice, Condition, Docs, Loop, Node, Section};
 
 const HELP_LOOP: &str = "a loop reads `for i in 0..n { .. }`";
@@ -101,22 +101,42 @@ impl<T> Entries<T> {
         faults: &mut Faults,
         read: &mut dyn FnMut(&Group, &mut Faults, &mut Self),
     ) -> Result<Choice, Reported> {
+        let mut branches = vec![self.branch(cursor, faults, read)?];
+        let mut otherwise = Vec::new();
+        while let Some(span) = cursor.eat_word("else") {
+            if cursor.eat_word("if").is_none() {
+                otherwise = self.braces(cursor, faults, HELP_CHOICE, read)?;
+                break;
+            }
+            if branches.len() >= MAX_BRANCHES {
+                return Err(faults.report(Fault::new(span, format!("more than {MAX_BRANCHES} branches"))));
+            }
+            branches.push(self.branch(cursor, faults, read)?);
+        }
+        // There is a branch at least.
+        let Some((condition, then)) = branches.pop() else { return Err(faults.reported_before()) };
+        let last = Choice { condition, then, otherwise };
+        Ok(branches.into_iter().rev().fold(last, |inner, (condition, then)| Choice {
+            condition,
+            then,
+            otherwise: vec![Node::If(inner)],
+        }))
+    }
+
+    /// A condition and the entries where it holds.
+    fn branch(
+        &mut self,
+        cursor: &mut Cursor,
+        faults: &mut Faults,
+        read: &mut dyn FnMut(&Group, &mut Faults, &mut Self),
+    ) -> Result<(Condition, Vec<Node>), Reported> {
         let condition = condition(cursor, faults).unwrap_or_else(|Reported { .. }| {
             while !cursor.is_end() && cursor.group_at(0, Delimiter::Brace).is_none() {
                 cursor.skip(1);
             }
             Condition::Missing
         });
-        let then = self.braces(cursor, faults, HELP_CHOICE, read)?;
-        if cursor.eat_word("else").is_none() {
-            return Ok(Choice { condition, then, otherwise: Vec::new() });
-        }
-        if cursor.eat_word("if").is_some() {
-            let inner = self.choice(cursor, faults, read)?;
-            return Ok(Choice { condition, then, otherwise: vec![Node::If(inner)] });
-        }
-        let otherwise = self.braces(cursor, faults, HELP_CHOICE, read)?;
-        Ok(Choice { condition, then, otherwise })
+        Ok((condition, self.braces(cursor, faults, HELP_CHOICE, read)?))
     }
 
     /// The entries between braces.
@@ -158,15 +178,17 @@ fn is_expression(cursor: &Cursor) -> bool {
     }
 }
 
-/// Goes on behind the braces of a loop or choice that could not be read.
+/// Goes on behind the braces of a loop or choice that could not be read, and behind those of its other branches.
 fn pass(cursor: &mut Cursor) {
-    while !cursor.is_end() && cursor.eat_group(Delimiter::Brace).is_none() {
-        if cursor.starts_section() {
+    loop {
+        while !cursor.is_end() && cursor.eat_group(Delimiter::Brace).is_none() {
+            if cursor.starts_section() {
+                return;
+            }
+            cursor.skip(1);
+        }
+        if cursor.eat_word("else").is_none() {
             return;
         }
-        cursor.skip(1);
-    }
-    if cursor.eat_word("else").is_some() {
-        pass(cursor);
     }
 }

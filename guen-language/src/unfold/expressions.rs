@@ -7,59 +7,90 @@ use super::arrays::brackets;
 use crate::diagnostics::Fault;
 use crate::syntax::{
     AddOperator, Expression, ExpressionKind, Factor, Fold, Index, Item, ModeStatement, MultiplyOperator,
-    Name, Node, Number, Path, Step, Term,
+    Name, Node, Number, Order, Path, Step, Term,
 };
 
 impl Unfolder<'_> {
     /// An expression for the present values of the loop variables.
     pub(super) fn expression(&mut self, e: &Expression) -> Expression {
-        let kind = match &e.kind {
-            ExpressionKind::Missing | ExpressionKind::Number(_) => e.kind.clone(),
-            ExpressionKind::Name(name) => self.value(name),
-            ExpressionKind::Call { function, arguments, list } => {
-                if let Some(kind) = self.call_of_array(function, arguments) {
-                    return Expression { span: e.span, parentheses: e.parentheses, kind };
-                }
-                let arguments = arguments.iter().map(|argument| self.expression(argument)).collect();
-                ExpressionKind::Call { function: function.clone(), arguments, list: *list }
-            }
+        *self.unfolded(e)
+    }
+
+    /// An expression as [`Unfolder::expression`]. The recursion passes pointers on, and loops instead of iterators: unoptimised builds give every
+    /// value a place of its own on the stack, and expressions are nested deep.
+    fn unfolded(&mut self, e: &Expression) -> Box<Expression> {
+        match &e.kind {
+            ExpressionKind::Call { function, arguments, list } => self.call(e, function, arguments, *list),
             ExpressionKind::Field { base, name } => {
-                let name = self.member(name);
-                ExpressionKind::Field { base: Box::new(self.expression(base)), name }
+                let base = self.unfolded(base);
+                self.field(e, base, name)
             }
-            ExpressionKind::Method { base, name, arguments, list } => ExpressionKind::Method {
-                base: Box::new(self.expression(base)),
-                name: name.clone(),
-                arguments: arguments.iter().map(|argument| self.expression(argument)).collect(),
-                list: *list,
-            },
-            ExpressionKind::Negation(operand) => ExpressionKind::Negation(Box::new(self.expression(operand))),
-            ExpressionKind::Sum { first, rest } => ExpressionKind::Sum {
-                first: Box::new(self.expression(first)),
-                rest: rest
-                    .iter()
-                    .map(|term| Term { value: self.expression(&term.value), ..term.clone() })
-                    .collect(),
-            },
-            ExpressionKind::Product { first, rest } => ExpressionKind::Product {
-                first: Box::new(self.expression(first)),
-                rest: rest
-                    .iter()
-                    .map(|factor| Factor { value: self.expression(&factor.value), ..factor.clone() })
-                    .collect(),
-            },
-            ExpressionKind::Power { base, exponent } => ExpressionKind::Power {
-                base: Box::new(self.expression(base)),
-                exponent: Box::new(self.expression(exponent)),
-            },
-            ExpressionKind::Comparison { left, order, right } => ExpressionKind::Comparison {
-                left: Box::new(self.expression(left)),
-                order: *order,
-                right: Box::new(self.expression(right)),
-            },
-            ExpressionKind::Fold(fold) => self.fold(fold),
-        };
-        Expression { span: e.span, parentheses: e.parentheses, kind }
+            ExpressionKind::Method { base, name, arguments, list } => {
+                let base = self.unfolded(base);
+                let arguments = self.arguments(arguments);
+                method(e, base, name, arguments, *list)
+            }
+            ExpressionKind::Negation(operand) => negation(e, self.unfolded(operand)),
+            ExpressionKind::Sum { first, rest } => {
+                let first = self.unfolded(first);
+                let mut terms = Vec::with_capacity(rest.len());
+                for term in rest {
+                    push_term(&mut terms, term, self.unfolded(&term.value));
+                }
+                sum(e, first, terms)
+            }
+            ExpressionKind::Product { first, rest } => {
+                let first = self.unfolded(first);
+                let mut factors = Vec::with_capacity(rest.len());
+                for factor in rest {
+                    push_factor(&mut factors, factor, self.unfolded(&factor.value));
+                }
+                product(e, first, factors)
+            }
+            ExpressionKind::Power { base, exponent } => {
+                let base = self.unfolded(base);
+                power(e, base, self.unfolded(exponent))
+            }
+            ExpressionKind::Comparison { left, order, right } => {
+                let left = self.unfolded(left);
+                comparison(e, left, *order, self.unfolded(right))
+            }
+            ExpressionKind::Fold(fold) => self.fold(e, fold),
+            ExpressionKind::Missing | ExpressionKind::Number(_) => Box::new(e.clone()),
+            ExpressionKind::Name(name) => self.name(e, name),
+        }
+    }
+
+    fn call(
+        &mut self,
+        e: &Expression,
+        function: &Name,
+        arguments: &[Expression],
+        list: Span,
+    ) -> Box<Expression> {
+        if self.is_call_of_array(function, arguments) {
+            return with_kind(e, ExpressionKind::Missing);
+        }
+        let arguments = self.arguments(arguments);
+        call_of(e, function, arguments, list)
+    }
+
+    fn arguments(&mut self, arguments: &[Expression]) -> Vec<Expression> {
+        let mut unfolded = Vec::with_capacity(arguments.len());
+        for argument in arguments {
+            push(&mut unfolded, self.unfolded(argument));
+        }
+        unfolded
+    }
+
+    fn field(&mut self, e: &Expression, base: Box<Expression>, name: &Name) -> Box<Expression> {
+        let name = self.member(name);
+        with_kind(e, ExpressionKind::Field { base, name })
+    }
+
+    fn name(&mut self, e: &Expression, name: &Name) -> Box<Expression> {
+        let kind = self.value(name);
+        with_kind(e, kind)
     }
 
     /// The name of a member of an instance, with its index computed; whether it has such an entry is asked later.
@@ -81,34 +112,17 @@ impl Unfolder<'_> {
     }
 
     /// A sum or product over a range, written out.
-    fn fold(&mut self, Fold { function, variable, range, body }: &Fold) -> ExpressionKind {
-        self.check_variable(variable);
+    fn fold(&mut self, e: &Expression, fold: &Fold) -> Box<Expression> {
+        self.check_variable(&fold.variable);
         let mut parts = Vec::new();
         let mut is_sound = true;
-        self.repeat(variable, range, &mut |this| {
+        self.repeat(&fold.variable, &fold.range, &mut |this| {
             let before = this.faults.count();
-            parts.push(this.expression(body));
+            push(&mut parts, this.unfolded(&fold.body));
             is_sound &= this.faults.count() == before;
             this.note_variables(before);
         });
-        if !is_sound {
-            return ExpressionKind::Missing;
-        }
-        let is_sum = function.text == "sum";
-        let span = function.span();
-        let mut parts = parts.into_iter();
-        let Some(first) = parts.next() else { return number(i64::from(!is_sum), span).kind };
-        let first = Box::new(first);
-        if parts.len() == 0 {
-            return first.kind;
-        }
-        if is_sum {
-            let rest = parts.map(|value| Term { operator: AddOperator::Plus, span, value }).collect();
-            ExpressionKind::Sum { first, rest }
-        } else {
-            let rest = parts.map(|value| Factor { operator: MultiplyOperator::Times, span, value }).collect();
-            ExpressionKind::Product { first, rest }
-        }
+        with_kind(e, if is_sound { folded(fold, parts) } else { ExpressionKind::Missing })
     }
 
     /// A name in an expression: a loop variable or count is a number, an entry of an array has its place.
@@ -219,11 +233,11 @@ impl Unfolder<'_> {
         array.has(&place).then(|| Name::at(array.path(name.ident.clone(), &place)))
     }
 
-    /// `q(i)` for `q[i]`.
-    fn call_of_array(&mut self, function: &Name, arguments: &[Expression]) -> Option<ExpressionKind> {
+    /// Reports `q(i)` for `q[i]`.
+    fn is_call_of_array(&mut self, function: &Name, arguments: &[Expression]) -> bool {
         let is_one = self.arrays.of(&function.text).is_some();
         if !is_one || self.hidden.contains(&function.text) || arguments.is_empty() || arguments.len() > 2 {
-            return None;
+            return false;
         }
         let written: Vec<String> = arguments.iter().map(Expression::source).collect();
         let fault = Fault::new(function.span(), format!("`{function}` is an array, and no function"));
@@ -232,8 +246,83 @@ impl Unfolder<'_> {
                 .note("indices stand in brackets and run from 0")
                 .help(format!("write `{function}[{}]`", written.join(", "))),
         );
-        Some(ExpressionKind::Missing)
+        true
     }
+}
+
+/// The sum or product of some parts.
+fn folded(Fold { function, .. }: &Fold, parts: Vec<Expression>) -> ExpressionKind {
+    let is_sum = function.text == "sum";
+    let span = function.span();
+    let mut parts = parts.into_iter();
+    let Some(first) = parts.next() else { return number(i64::from(!is_sum), span).kind };
+    let first = Box::new(first);
+    if parts.len() == 0 {
+        return first.kind;
+    }
+    if is_sum {
+        let rest = parts.map(|value| Term { operator: AddOperator::Plus, span, value }).collect();
+        ExpressionKind::Sum { first, rest }
+    } else {
+        let rest = parts.map(|value| Factor { operator: MultiplyOperator::Times, span, value }).collect();
+        ExpressionKind::Product { first, rest }
+    }
+}
+
+/// An expression at the place of another.
+fn with_kind(e: &Expression, kind: ExpressionKind) -> Box<Expression> {
+    Box::new(Expression { span: e.span, parentheses: e.parentheses, kind })
+}
+
+fn call_of(e: &Expression, function: &Name, arguments: Vec<Expression>, list: Span) -> Box<Expression> {
+    with_kind(e, ExpressionKind::Call { function: function.clone(), arguments, list })
+}
+
+fn method(
+    e: &Expression,
+    base: Box<Expression>,
+    name: &Name,
+    arguments: Vec<Expression>,
+    list: Span,
+) -> Box<Expression> {
+    with_kind(e, ExpressionKind::Method { base, name: name.clone(), arguments, list })
+}
+
+fn negation(e: &Expression, operand: Box<Expression>) -> Box<Expression> {
+    with_kind(e, ExpressionKind::Negation(operand))
+}
+
+fn sum(e: &Expression, first: Box<Expression>, rest: Vec<Term>) -> Box<Expression> {
+    with_kind(e, ExpressionKind::Sum { first, rest })
+}
+
+fn product(e: &Expression, first: Box<Expression>, rest: Vec<Factor>) -> Box<Expression> {
+    with_kind(e, ExpressionKind::Product { first, rest })
+}
+
+fn power(e: &Expression, base: Box<Expression>, exponent: Box<Expression>) -> Box<Expression> {
+    with_kind(e, ExpressionKind::Power { base, exponent })
+}
+
+fn comparison(
+    e: &Expression,
+    left: Box<Expression>,
+    order: Order,
+    right: Box<Expression>,
+) -> Box<Expression> {
+    with_kind(e, ExpressionKind::Comparison { left, order, right })
+}
+
+fn push(list: &mut Vec<Expression>, value: Box<Expression>) {
+    list.push(*value);
+}
+
+fn push_term(terms: &mut Vec<Term>, term: &Term, value: Box<Expression>) {
+    terms.push(Term { operator: term.operator, span: term.span, value: *value });
+}
+
+fn push_factor(factors: &mut Vec<Factor>, factor: &Factor, value: Box<Expression>) {
+    factors.push(Factor { operator: factor.operator, span: factor.span, value: *value });
 }
 
 /// A whole number as an expression.

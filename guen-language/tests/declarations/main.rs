@@ -16,6 +16,7 @@ mod large_costs;
 mod limbs;
 mod long_families;
 mod modes_of_scenes;
+mod nesting;
 mod one_mode;
 mod outline;
 mod painleve;

@@ -1,0 +1,96 @@
+//! Everything that may be nested, as deep as the limits allow, in half of the stack of a small compiler thread; and what is nested deeper
+//! in an error. Unoptimised, where frames are largest; the compiler ends without a word where its stack does.
+
+use std::thread::Builder;
+
+use guen_language::limits::{MAX_BRANCHES, MAX_CONDITION_OPERATIONS, MAX_DEPTH, MAX_INDEX_OPERATIONS};
+
+/// Half of the stack of a thread of Rust that asks for none.
+const STACK: usize = 1 << 20;
+
+/// The first error of a declaration, or none; a stack that overflows ends the test.
+fn first_error(text: String) -> Option<String> {
+    let expand = move || {
+        let items = guen_language::expand(text.parse().unwrap()).to_string();
+        let at = items.find("compile_error")?;
+        Some(items[at..].chars().take(200).collect())
+    };
+    Builder::new().stack_size(STACK).spawn(expand).unwrap().join().unwrap()
+}
+
+fn nested(times: usize, open: &str, middle: &str, close: &str) -> String {
+    format!("{}{middle}{}", open.repeat(times), close.repeat(times))
+}
+
+/// A system with a force, and with entries before it.
+fn system(entries: &str, force: &str) -> String {
+    format!(
+        "pub system S {{ constants {{ a[2] > 0 }} coordinates {{ x, y }} fn f(u) = u + 1; functions {{ p(u); }} {entries}
+        kinetic_energy = dot(x)^2 + dot(y)^2; forces {{ {force} along dot(y); }} }}"
+    )
+}
+
+#[test]
+fn what_the_limits_allow_fits_into_half_of_a_small_stack() {
+    let half = MAX_DEPTH / 2;
+    for (times, open, middle, close) in [
+        (MAX_DEPTH, "sin(", "x", ")"),
+        (MAX_DEPTH, "f(", "x", ")"),
+        (MAX_DEPTH, "p(", "x", ")"),
+        (MAX_DEPTH, "select(x >= 0, x, ", "x", ")"),
+        (MAX_DEPTH, "(", "x", ")"),
+        (MAX_DEPTH, "(1 + 2*", "x", ")"),
+        (MAX_DEPTH, "-", "x", ""),
+        (MAX_DEPTH, "1^", "1", ""),
+        (MAX_DEPTH - 1, "", "x", ".sin()"),
+        // Two levels each.
+        (half, "(1 + ", "x", ")^1"),
+        (half, "norm(vec(x, 1, ", "x", "))"),
+        (half, "inner(vec(x, 1, 0), vec(1, 1, ", "x", "))"),
+        (MAX_DEPTH, "sum(i in 0..1: ", "x", ")"),
+        (MAX_DEPTH - 1, "abs(", "a[0]", ")"),
+    ] {
+        assert_eq!(
+            first_error(system("", &nested(times, open, middle, close))),
+            None,
+            "{open}{middle}{close}"
+        );
+    }
+    for (open, close) in [("(", ")"), ("-", ""), ("", " + 0")] {
+        let index = nested(MAX_INDEX_OPERATIONS, open, "0", close);
+        let force = nested(MAX_DEPTH, "abs(", &format!("a[{index}]"), ")");
+        assert_eq!(first_error(system("", &force)), None, "{open}0{close}");
+    }
+    for (open, close) in [("!", ""), ("(", ")"), ("", " && 1 < 2"), ("", " || 1 < 2")] {
+        let condition = nested(MAX_CONDITION_OPERATIONS, open, "0 < 1", close);
+        let force = format!("for i in 0..2 {{ if {condition} {{ x along dot(x); }} }} x");
+        assert_eq!(first_error(system("", &force)), None, "{open}0 < 1{close}");
+    }
+    let branches = " else if i > 7 { x along dot(x); }".repeat(MAX_BRANCHES - 1);
+    let force = format!("for i in 0..2 {{ if i > 5 {{ x along dot(y); }} {branches} }} x");
+    assert_eq!(first_error(system("", &force)), None);
+}
+
+#[test]
+fn what_is_nested_deeper_is_an_error_however_deep() {
+    const FAR: usize = 2_000;
+    for (force, expected) in [
+        (nested(MAX_DEPTH + 1, "sin(", "x", ")"), "nested more than"),
+        (format!("a[{}]", nested(MAX_INDEX_OPERATIONS + 1, "", "0", " + 0")), "an index of more than"),
+        (format!("a[{}]", nested(FAR, "", "0", " + 0")), "an index of more than"),
+        (format!("a[{}]", nested(FAR, "-", "0", "")), "an index of more than"),
+    ] {
+        let error = first_error(system("", &force)).expect("an error");
+        assert!(error.contains(expected), "{error}");
+    }
+    for (open, close) in [("!", ""), ("", " && 1 < 2"), ("", " || 1 < 2")] {
+        let condition = nested(FAR, open, "0 < 1", close);
+        let force = format!("for i in 0..2 {{ if {condition} {{ x along dot(x); }} }} x");
+        let error = first_error(system("", &force)).expect("an error");
+        assert!(error.contains("a condition of more than"), "{error}");
+    }
+    let branches = " else if i > 7 { x along dot(x); }".repeat(FAR);
+    let force = format!("for i in 0..2 {{ if i > 5 {{ x along dot(y); }} {branches} }} x");
+    let error = first_error(system("", &force)).expect("an error");
+    assert!(error.contains("more than 64 branches"), "{error}");
+}
