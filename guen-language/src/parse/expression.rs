@@ -3,6 +3,11 @@
 //! What another language would write and what is clear nevertheless is reported, read as a missing value, and
 //! passed over; only where no expression can begin is the whole given up.
 
+#![expect(
+    clippy::boxed_local,
+    reason = "the recursion passes pointers on, and what it calls opens them beside its stack"
+)]
+
 use proc_macro2::{Delimiter, Group, Literal, Span, TokenStream, TokenTree};
 
 use super::cursor::Cursor;

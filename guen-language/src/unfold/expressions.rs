@@ -1,5 +1,10 @@
 //! Names and expressions without indices that have to be computed.
 
+#![expect(
+    clippy::boxed_local,
+    reason = "the recursion passes pointers on, and what it calls opens them beside its stack"
+)]
+
 use proc_macro2::Span;
 
 use super::Unfolder;
