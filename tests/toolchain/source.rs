@@ -313,9 +313,9 @@ fn adaptive<const N: usize>(
 /// Settings of all kinds of runs: forwards and backwards, with few samples and many, tolerances that are met and one that cannot be.
 fn settings(round: usize, draw: &mut impl FnMut() -> f64) -> [f64; 6] {
     let tolerance = 10_f64.powf(-7.0 + 4.0 * draw());
-    let first = if round % 3 == 0 { 0.2 + 0.1 * draw() } else { 0.0 };
+    let first = if round.is_multiple_of(3) { 0.2 + 0.1 * draw() } else { 0.0 };
     let span = [0.9, -0.4, 2.5, 0.0, 1.5][round % 5] * (1.0 + draw() / 2.0);
-    let most = if round % 7 == 0 { 3.0 } else { 2000.0 };
+    let most = if round.is_multiple_of(7) { 3.0 } else { 2000.0 };
     let usual = [tolerance, tolerance * 10.0, first, most, span, (round % 6) as f64];
     match round % 40 {
         11 => [1e-300, 1e-300, first, most, 0.9, 5.0],
