@@ -73,7 +73,7 @@ impl<const C: usize> From<Unselected<C>> for HybridCause<C> {
 const HIGHEST: usize = 5;
 /// The part of what a derivative is made of below which it vanishes: what integration and location leave of a zero.
 const VANISHING: f64 = 1e-9;
-/// That part where values are taken as they are: what roundings leave of a zero.
+/// Below this part of it a derivative vanishes where values are taken as they are: what roundings leave of a zero.
 const ROUNDING: f64 = NOISE * 0.5 * f64::EPSILON;
 /// Modes that are compared at one transition.
 const MAX_CANDIDATES: usize = 1 << 14;
