@@ -159,7 +159,18 @@ pub fn missing(declaration: &Declaration, items: TokenStream) -> Vec<String> {
     signatures(expand_outline(declaration), &crate_root, &mut there);
     let unknown: Vec<String> = declaration.items.iter().filter_map(unknown_scene(declaration)).collect();
     let is_known = |item: &&String| !unknown.iter().any(|module| item.contains(module));
+    let [wanted, there] = [wanted, there].map(without_digests);
     wanted.difference(&there).filter(is_known).cloned().collect()
+}
+
+/// Signatures without digests of declarations: what stands in for a faulty declaration has another.
+fn without_digests(signatures: BTreeSet<String>) -> BTreeSet<String> {
+    let is_digest = |word: &str| word.parse::<u64>().is_ok_and(|number| number > u64::from(u32::MAX));
+    let without = |item: String| {
+        let words: Vec<&str> = item.split(' ').map(|word| if is_digest(word) { "_" } else { word }).collect();
+        words.join(" ")
+    };
+    signatures.into_iter().map(without).collect()
 }
 
 /// The outline of a declaration as text without blanks.
