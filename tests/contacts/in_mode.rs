@@ -91,6 +91,39 @@ impl LaneTask for InLanes {
     }
 }
 
+/// States off the floor in all lanes but the first, restored together and alone.
+struct Restored(hoop_on_floor::Prepared, [f64; 12]);
+
+impl LaneTask for Restored {
+    type Output = bool;
+
+    fn run<L: Lanes>(self) -> bool {
+        let in_mode = self.0.in_mode(MODE);
+        let of = |lane: usize| -> [f64; 12] {
+            std::array::from_fn(|i| self.1[i] + 1e-6 * (lane * (i + 1)) as f64)
+        };
+        let mut state: [L; 12] = std::array::from_fn(|i| L::from_fn(|lane| of(lane)[i]));
+        System::<L, 12>::restore(&in_mode, L::from_f64(0.0), &mut state).unwrap();
+        (0..L::COUNT).all(|lane| {
+            let mut alone = of(lane);
+            System::<f64, 12>::restore(&in_mode, 0.0, &mut alone).unwrap();
+            let stays = alone == of(lane);
+            stays == (lane == 0) && (0..12).all(|i| state[i].lane(lane) == alone[i])
+        })
+    }
+}
+
+/// Whether a state moves is asked in every lane, and not in the first for all.
+#[test]
+fn each_lane_is_restored_by_itself() {
+    let (floor, start, _) = stuck();
+    let mut on_floor = start;
+    System::<f64, 12>::restore(&floor.in_mode(MODE), 0.0, &mut on_floor).unwrap();
+    for width in [Width::One, Width::Four, Width::Eight] {
+        assert!(dispatch_on(Backend::Portable, width, Restored(floor, on_floor)));
+    }
+}
+
 #[test]
 fn lanes_have_the_bits_of_single_members() {
     let (floor, start, _) = stuck();

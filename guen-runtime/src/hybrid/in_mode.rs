@@ -388,11 +388,14 @@ where
         if !restored.iter().all(|entry| entry.is_finite()) {
             return Err(PositionsError::NotFinite);
         }
-        // What moves nothing beyond rounding moves nothing: so the slope at the end of a step stays that of the state.
-        let moves =
-            |(new, old): (&R, &R)| (*new - *old).to_f64().abs() > 4.0 * f64::EPSILON * old.to_f64().abs();
-        if restored.iter().zip(state.iter()).any(moves) {
-            *state = restored;
+        // What moves nothing beyond rounding moves nothing: so the slope at the end of a step stays that of the state. In lanes, each by itself.
+        let (zero, rounding) = (R::zero(), R::from_f64(4.0 * f64::EPSILON));
+        let moved = restored.iter().zip(state.iter()).fold(-R::one(), |most, (new, old)| {
+            let beyond = (*new - *old).abs() - rounding * old.abs();
+            beyond.where_above(most, beyond, most)
+        });
+        for (old, new) in state.iter_mut().zip(restored) {
+            *old = moved.where_above(zero, new, *old);
         }
         Ok(())
     }
