@@ -12,6 +12,7 @@ mod json;
 mod laws;
 mod one_mode;
 mod permanent;
+mod permanent_loads;
 mod piecewise;
 mod printed;
 mod reference;

@@ -70,6 +70,8 @@ pub const ROW_RATES: &str = "row_rates";
 pub const ROW_DRIFTS: &str = "row_drifts";
 /// The conditions under which contacts close, then those under which latches are released; only where some are declared.
 pub const CONDITIONS: &str = "conditions";
+/// The reactions of permanent constraints that load grips, each with its derivatives by the forces of all rows; only where there are some.
+pub const LOADS: &str = "loads";
 /// The new values of all resets; only where there are some.
 pub const RESETS: &str = "resets";
 /// The functions of switches, resets and branches.

@@ -203,7 +203,20 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             body: signal_values,
         },
     ];
-    let functions: Vec<Function> = functions.into_iter().chain(reset).chain(eliminated_rates).collect();
+    let loads = has(function::LOADS).then(|| {
+        let program = program(function::LOADS, &quote!(switches, &[<S as __guen::Real>::zero(); #count]));
+        let entries = contacts.entries.iter().enumerate();
+        let loaded = entries.filter(|(_, entry)| entry.load_reaction.is_some()).map(|(place, _)| place);
+        Function {
+            name: "loads",
+            leading: Vec::new(),
+            trailing: vec![(quote!(switches), quote!(&[S; #switches]))],
+            result: quote!(__guen::hybrid::Loads<S, #rows, #count>),
+            body: quote!(#with_any __guen::checks::loads::<S, #rows, #count>(&[#(#loaded),*], &#program)),
+        }
+    });
+    let functions: Vec<Function> =
+        functions.into_iter().chain(loads).chain(reset).chain(eliminated_rates).collect();
     let sizes = quote!(#size, #rows, #count, #switches);
     let own = functions.iter().map(|function| function.of_system(*size, given, &sizes));
     let actuated = (given > 0).then(|| {
@@ -449,6 +462,7 @@ fn elements(contacts: &Contacts<'_>) -> Vec<TokenStream> {
                 ContactKind::Latch => quote!(__guen::hybrid::Element::latch(#name, #first)),
             };
             let loaded = entry.loaded_by.map(|row| quote!(.loaded_by(#row)));
+            let loaded = loaded.or(entry.load_reaction.map(|_| quote!(.loaded_by_constraint())));
             let of_speed = entry.friction_of_speed.then(|| quote!(.with_friction_of_speed()));
             let conditional = entry.when.map(|_| quote!(.with_condition()));
             quote!(#element #loaded #of_speed #conditional)

@@ -112,6 +112,7 @@ pub(super) fn signature(name: &str) -> Signature {
         | function::ROW_RATES
         | function::ROW_DRIFTS
         | function::CONDITIONS
+        | function::LOADS
         | function::RESETS
         | function::SIGNALS => Signature::Contacts,
         function::CONTACT_OUTPUTS => Signature::Pressed,

@@ -56,7 +56,7 @@ impl Evaluator<'_> {
                 fault.note("reactions follow from the motion: only `outputs` and `states` may use them");
             return self.fail(match self.place {
                 Place::GripForce | Place::GripLoad => fault.help(
-                    "a grip is loaded by a contact without friction as `load = reaction(name)`: factors belong into `friction`",
+                    "a grip is loaded by a contact without friction, or by a constraint, as `load = reaction(name)`: factors belong into `friction`",
                 ),
                 _ => fault,
             });
@@ -87,7 +87,7 @@ impl Evaluator<'_> {
     }
 
     /// The multipliers of forms.
-    fn multipliers(&mut self, value: Value, name: &Name) -> Value {
+    pub(super) fn multipliers(&mut self, value: Value, name: &Name) -> Value {
         let mut symbol_of = |eta: ExprId| {
             let Some(symbol) = self.bench.graph.as_symbol(eta) else { return eta };
             if self.bench.graph.symbol_info(symbol).role != Role::QuasiVelocity {

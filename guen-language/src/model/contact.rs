@@ -124,6 +124,8 @@ pub struct ContactEntry<'a> {
     pub limit: Option<ExprId>,
     /// The row whose force, times the coefficient of friction, limits that of a grip.
     pub loaded_by: Option<usize>,
+    /// The reaction of a permanent constraint whose magnitude does that in place of a row's force.
+    pub load_reaction: Option<ExprId>,
     /// The condition under which an open contact closes.
     pub when: Option<ExprId>,
     /// The function whose rise unlocks a latch.

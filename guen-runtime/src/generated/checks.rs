@@ -11,7 +11,7 @@ pub use constants::{
     Bound, check_constants, check_definite, check_finite, check_fixed, check_hoisted, check_inertia,
     check_limits, check_mass, check_nonnegative, check_nonzero, check_pivot, check_positive, check_within,
 };
-pub use contacts::{conditions, free_motion, padded};
+pub use contacts::{conditions, free_motion, loads, padded};
 
 /// The names of fields without the `r#` of those that are keywords.
 ///

@@ -1,6 +1,7 @@
 //! Systems with contacts whose inputs are functions of time and state.
 
 use crate::hybrid::element::{Element, Signal};
+use crate::hybrid::loads::Loads;
 use crate::hybrid::mode::Mode;
 #[cfg(feature = "alloc")]
 use crate::hybrid::simulation::HybridSimulation;
@@ -46,6 +47,18 @@ pub trait ActuatedModes<const N: usize, const W: usize, const C: usize, const S:
         inputs: &[R; M],
         switches: &[R; S],
     ) -> [R; N];
+
+    /// [`HybridSystem::loads`] with these inputs.
+    #[inline]
+    fn loads_with<R: Lift<f64>>(
+        &self,
+        _t: R,
+        _state: &[R; N],
+        _inputs: &[R; M],
+        _switches: &[R; S],
+    ) -> Loads<R, W, C> {
+        Loads::none()
+    }
 
     /// [`HybridSystem::signals`] with these inputs.
     fn signals_with<R: Lift<f64>>(&self, t: R, state: &[R; N], inputs: &[R; M]) -> [R; S];
@@ -162,6 +175,11 @@ where
     #[inline]
     fn free_rates<R: Lift<f64>>(&self, t: R, state: &[R; N], switches: &[R; S]) -> [R; N] {
         self.system.free_rates_with(t, state, &P::inputs_by(&self.law, t, state), switches)
+    }
+
+    #[inline]
+    fn loads<R: Lift<f64>>(&self, t: R, state: &[R; N], switches: &[R; S]) -> Loads<R, W, C> {
+        self.system.loads_with(t, state, &P::inputs_by(&self.law, t, state), switches)
     }
 
     #[inline]

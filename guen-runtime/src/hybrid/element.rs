@@ -41,6 +41,8 @@ pub struct Element {
     /// The row whose reaction, times the coefficient of friction, limits the tangential reaction: of a rough contact its own
     /// normal row. The limit is `limit + friction * reaction`; without a load it is `limit` alone.
     pub load: Option<usize>,
+    /// Whether the magnitude of a permanent constraint's reaction takes the place of that row's: see [`Loads`](crate::hybrid::Loads).
+    pub loaded_by_constraint: bool,
     /// Whether the coefficient of friction depends on the magnitude of the slip.
     pub friction_of_speed: bool,
     /// Whether it closes, or locks, only under a condition `when`: an open contact without one is never below zero.
@@ -55,7 +57,16 @@ impl Element {
         tangential: &'static [usize],
         load: Option<usize>,
     ) -> Self {
-        Self { name, kind, normal, tangential, load, friction_of_speed: false, conditional: false }
+        Self {
+            name,
+            kind,
+            normal,
+            tangential,
+            load,
+            loaded_by_constraint: false,
+            friction_of_speed: false,
+            conditional: false,
+        }
     }
 
     /// A contact without friction, with the row of its gap's rate.
@@ -82,6 +93,17 @@ impl Element {
     #[must_use]
     pub const fn loaded_by(self, row: usize) -> Self {
         Self { load: Some(row), ..self }
+    }
+
+    /// A grip whose limit grows with the magnitude of the reaction of a permanent constraint: `load = reaction(constraint)`.
+    #[must_use]
+    pub const fn loaded_by_constraint(self) -> Self {
+        Self { loaded_by_constraint: true, ..self }
+    }
+
+    /// Whether a reaction limits its tangential reaction.
+    pub const fn is_loaded(&self) -> bool {
+        self.load.is_some() || self.loaded_by_constraint
     }
 
     /// An element whose coefficient of friction depends on the magnitude of the slip.

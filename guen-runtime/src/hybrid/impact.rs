@@ -16,6 +16,8 @@ pub(super) struct Impact<'a, R, const W: usize, const C: usize> {
     /// The elements that take part: contacts that touch, latches that lock or are locked, grips.
     pub(super) takes_part: [bool; C],
     pub(super) friction: [R; C],
+    /// What unit impulses along the rows add to those of permanent constraints that load grips.
+    pub(super) loads: &'a [[R; W]; C],
     pub(super) restitutions: [f64; C],
 }
 
@@ -68,6 +70,7 @@ impl<R: Lift<f64>, const W: usize, const C: usize> Impact<'_, R, W, C> {
             scale: self.scale(),
             participants,
             friction: self.friction,
+            loads: self.loads,
         }
     }
 
@@ -140,6 +143,7 @@ mod tests {
 
     use super::{Impact, Struck, Unsolved};
     use crate::hybrid::element::{Element, Kind};
+    use crate::hybrid::loads::Loads;
 
     /// Numbers between minus one and one, from a seed.
     struct Random(u64);
@@ -188,6 +192,7 @@ mod tests {
                 before,
                 takes_part: [true; 3],
                 friction: [0.0; 3],
+                loads: &Loads::none().responses,
                 restitutions,
             };
             let Struck { impulses, after, energy, .. } = impact.solve().unwrap();
@@ -235,6 +240,7 @@ mod tests {
                 before,
                 takes_part: [true; 2],
                 friction,
+                loads: &Loads::none().responses,
                 restitutions: [0.0; 2],
             };
             match impact.solve() {
@@ -286,6 +292,7 @@ mod tests {
                 before,
                 takes_part: [true],
                 friction: [mu],
+                loads: &Loads::none().responses,
                 restitutions: [0.0],
             };
             let Struck { impulses, after, energy, .. } = impact.solve().unwrap();
@@ -351,6 +358,7 @@ mod tests {
                 before,
                 takes_part: [true; 2],
                 friction,
+                loads: &Loads::none().responses,
                 restitutions: [0.0; 2],
             };
             let Ok(Struck { impulses, after, energy, .. }) = impact.solve() else {
@@ -394,6 +402,7 @@ mod tests {
             before: from_fn(|_| random.next()),
             takes_part: [true; 12],
             friction: [0.0; 12],
+            loads: &Loads::none().responses,
             restitutions: [0.5; 12],
         };
         let Struck { impulses, after, energy, .. } = impact.solve().unwrap();
@@ -411,6 +420,7 @@ mod tests {
             before: [-1.0, 0.0],
             takes_part: [true, true],
             friction: [0.0; 2],
+            loads: &Loads::none().responses,
             restitutions: [0.0; 2],
         };
         let Struck { impulses, after, .. } = impact.solve().unwrap();

@@ -3,6 +3,7 @@
 use core::array::from_fn;
 
 use crate::hybrid::element::{Effect, Element, Signal};
+use crate::hybrid::loads::{self, Loads};
 use crate::hybrid::mode::{ElementState, Mode};
 use crate::hybrid::pivots::Pivots;
 use crate::hybrid::system::{FreeMotion, HybridSystem};
@@ -58,6 +59,8 @@ pub struct Reactions<R, const N: usize, const W: usize, const C: usize> {
     pub reactions: [R; W],
     /// The direction of every slip by its rows: the components of a unit vector, zero where nothing slips.
     pub directions: [R; W],
+    /// The magnitudes of the reactions of permanent constraints that load grips; zero for other elements.
+    pub loads: [R; C],
     /// The determinant of the mode's matrix `G`, relative to that of the same rows without friction and without coupling: it vanishes
     /// where the reactions of slipping contacts become infinite.
     pub regularity: R,
@@ -252,7 +255,52 @@ where
         let (matrix, right) = self.equations(&free, &directions);
         let (mut reactions, regularity) = self.pivots.solve(matrix, right, &diagonal(&free.delassus));
         self.add_friction(&mut reactions, &free.friction, &directions, |c| free.limits[c]);
-        Reactions { free, reactions, directions, regularity }
+        let mut motion = Reactions { free, reactions, directions, loads: [R::zero(); C], regularity };
+        if H::ELEMENTS.iter().any(|element| element.loaded_by_constraint) {
+            let loads = self.system.loads(t, state, &self.lifted_switches(t, state));
+            self.load(&mut motion, matrix, &loads);
+        }
+        motion
+    }
+
+    /// Adds the friction of what slips under the reactions of permanent constraints.
+    fn load<R: Real>(&self, motion: &mut Reactions<R, N, W, C>, matrix: [[R; W]; W], loads: &Loads<R, W, C>) {
+        let Reactions { free, directions, .. } = *motion;
+        let slips: [bool; C] = from_fn(|c| H::ELEMENTS[c].loaded_by_constraint && self.mode.0[c].slips());
+        let mut signed: [R; C] =
+            from_fn(|c| loads.free[c] + loads::added(&loads.responses[c], &motion.reactions));
+        if slips.contains(&true) {
+            let sizes = diagonal(&free.delassus);
+            // The reactions that a load of one causes.
+            let caused: [[R; W]; C] = from_fn(|c| {
+                if !slips[c] {
+                    return [R::zero(); W];
+                }
+                let own = |other: usize| if other == c { free.friction[c] } else { R::zero() };
+                let tangential = H::ELEMENTS[c].tangential;
+                let right = from_fn(|row| {
+                    let along = |sum: R, &t: &usize| directions[t].times_plus(free.delassus[row][t], sum);
+                    free.friction[c] * tangential.iter().fold(R::zero(), along)
+                });
+                let (mut caused, _) = self.pivots.solve(matrix, right, &sizes);
+                self.add_friction(&mut caused, &free.friction, &directions, own);
+                caused
+            });
+            let coupling = from_fn(|c| from_fn(|e| loads::added(&loads.responses[c], &caused[e])));
+            if !H::PAINLEVE_FREE {
+                motion.regularity *= loads::regularity(&coupling, &slips);
+            }
+            let found = loads::magnitudes(&signed, &coupling, &slips);
+            for (f, caused) in found.iter().zip(&caused) {
+                for (reaction, part) in motion.reactions.iter_mut().zip(caused) {
+                    *reaction = f.times_plus(*part, *reaction);
+                }
+            }
+            for (load, row) in signed.iter_mut().zip(&coupling) {
+                *load += loads::added(row, &found);
+            }
+        }
+        motion.loads = from_fn(|c| signed[c].abs());
     }
 
     /// Adds the reactions of what slips to those of its loads.

@@ -4,6 +4,7 @@ use core::array::from_fn;
 
 use crate::hybrid::impact::Impact;
 use crate::hybrid::in_mode::{InMode, moved};
+use crate::hybrid::loads::Loads;
 use crate::hybrid::phase::{Phase, Solved};
 use crate::hybrid::saltation::NoSaltation;
 use crate::hybrid::system::HybridSystem;
@@ -44,12 +45,17 @@ impl<M, const N: usize, const W: usize, const C: usize> Transition<M, N, W, C> {
         });
         let free = system.free_motion(t, &state, &switches.map(Dual::constant), &speeds);
         let restitutions = system.restitutions();
+        let loads = match H::ELEMENTS.iter().any(|element| element.loaded_by_constraint) {
+            true => system.loads(t, &state, &switches.map(Dual::constant)),
+            false => Loads::none(),
+        };
         let values = Impact {
             elements: &H::ELEMENTS,
             delassus: &free.delassus.map(|row| row.map(|entry| entry.value)),
             before: free.row_rates.map(|rate| rate.value),
             takes_part,
             friction: free.friction.map(|friction| friction.value),
+            loads: &loads.responses.map(|row| row.map(|entry| entry.value)),
             restitutions,
         };
         let moving = Impact {
@@ -58,6 +64,7 @@ impl<M, const N: usize, const W: usize, const C: usize> Transition<M, N, W, C> {
             before: free.row_rates,
             takes_part,
             friction: free.friction,
+            loads: &loads.responses,
             restitutions,
         };
         let closes = matches!(self.kind, TransitionKind::Rest { .. });

@@ -85,6 +85,7 @@ mod in_mode;
 mod jump;
 #[cfg(feature = "alloc")]
 mod kept;
+mod loads;
 mod located;
 mod mode;
 mod mode_info;
@@ -118,6 +119,7 @@ pub use driver::{Hybrid, HybridResult};
 pub use element::{Effect, Element, Kind, Signal};
 pub use error::{HybridCause, HybridError};
 pub use in_mode::{InMode, Reactions};
+pub use loads::Loads;
 pub use mode::{ElementState, Mode};
 pub use mode_info::ModeInfo;
 pub use saltation::{NoSaltation, Saltation};

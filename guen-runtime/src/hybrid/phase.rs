@@ -5,6 +5,7 @@ use core::f64::consts::TAU;
 
 use crate::hybrid::element::Element;
 use crate::hybrid::impact::Unsolved;
+use crate::hybrid::loads;
 use crate::numbers::real::Real;
 
 /// The part of an element in a phase.
@@ -63,6 +64,8 @@ pub(super) struct Phase<'a, R, const W: usize, const C: usize> {
     pub(super) scale: f64,
     pub(super) participants: [Participant<R>; C],
     pub(super) friction: [R; C],
+    /// What unit impulses along the rows add to those of permanent constraints that load grips.
+    pub(super) loads: &'a [[R; W]; C],
 }
 
 /// The solution of a phase.
@@ -181,7 +184,7 @@ impl<const W: usize, const C: usize> Phase<'_, f64, W, C> {
         match self.participants[c] {
             Participant::Absent => add(nothing),
             Participant::Locked => add(Choice { closed: true, ..nothing }),
-            Participant::Grip if self.elements[c].load.is_none() => add(nothing),
+            Participant::Grip if !self.elements[c].is_loaded() => add(nothing),
             Participant::Grip => slides(&mut add, false),
             Participant::Contact { floor } => {
                 // Without an impulse there is no friction.
@@ -217,11 +220,16 @@ impl<const W: usize, const C: usize> Phase<'_, f64, W, C> {
             match tangential[c] {
                 Tangential::None => {}
                 Tangential::Stick => {
-                    let Some(load) = element.load else { continue };
+                    if !element.is_loaded() {
+                        continue;
+                    }
+                    let load = element
+                        .load
+                        .map_or(loads::added(&self.loads[c], impulses).abs(), |row| impulses[row]);
                     let square: f64 = element.tangential.iter().map(|&t| impulses[t] * impulses[t]).sum();
                     let size =
                         element.tangential.iter().map(|&t| scale / self.delassus[t][t]).fold(0.0, f64::max);
-                    at_least_zero((self.friction[c] * impulses[load] - libm::sqrt(square)) / size);
+                    at_least_zero((self.friction[c] * load - libm::sqrt(square)) / size);
                 }
                 Tangential::Slip(direction) => {
                     let along: f64 =
@@ -308,10 +316,43 @@ impl<R: Real, const W: usize, const C: usize> Phase<'_, R, W, C> {
         let right: [R; W] = from_fn(|w| -added(self.before[w], &known, &matrix[w]));
         let found = solve_some(&matrix, &right, &unknown)?;
         let mut impulses: [R; W] = from_fn(|w| known[w] + found[w]);
-        for (c, element) in self.elements.iter().enumerate() {
-            let (Tangential::Slip(direction), Some(load)) = (tangential[c], element.load) else { continue };
-            for (&t, d) in element.tangential.iter().zip(direction) {
-                impulses[t] = -(self.friction[c] * d * impulses[load]);
+        let add_friction = |impulses: &mut [R; W]| {
+            for (c, element) in self.elements.iter().enumerate() {
+                let (Tangential::Slip(direction), Some(load)) = (tangential[c], element.load) else {
+                    continue;
+                };
+                for (&t, d) in element.tangential.iter().zip(direction) {
+                    impulses[t] = -(self.friction[c] * d * impulses[load]);
+                }
+            }
+        };
+        add_friction(&mut impulses);
+        let slips: [bool; C] = from_fn(|c| {
+            self.elements[c].loaded_by_constraint && matches!(tangential[c], Tangential::Slip(_))
+        });
+        if slips.contains(&true) {
+            // The impulses that a load of one causes.
+            let mut caused = [[zero; W]; C];
+            for (c, element) in self.elements.iter().enumerate() {
+                let (Tangential::Slip(direction), true) = (tangential[c], slips[c]) else { continue };
+                let along = |w: usize| {
+                    let parts = element.tangential.iter().zip(direction);
+                    parts.fold(zero, |sum, (&t, d)| sum + d * self.delassus[w][t])
+                };
+                let right: [R; W] = from_fn(|w| self.friction[c] * along(w));
+                caused[c] = solve_some(&matrix, &right, &unknown)?;
+                add_friction(&mut caused[c]);
+                for (&t, d) in element.tangential.iter().zip(direction) {
+                    caused[c][t] = -(self.friction[c] * d);
+                }
+            }
+            let free = from_fn(|c| loads::added(&self.loads[c], &impulses));
+            let coupling = from_fn(|c| from_fn(|e| loads::added(&self.loads[c], &caused[e])));
+            let found = loads::magnitudes(&free, &coupling, &slips);
+            for (f, caused) in found.iter().zip(&caused) {
+                for (impulse, part) in impulses.iter_mut().zip(caused) {
+                    *impulse = f.times_plus(*part, *impulse);
+                }
             }
         }
         let after: [R; W] = from_fn(|w| added(self.before[w], &impulses, &self.delassus[w]));

@@ -46,11 +46,22 @@ where
         const NOTHING: f64 = 1e-4;
 
         let slips = |c: usize| self.mode.0[c].slips() && H::ELEMENTS[c].load.is_some();
-        if !self.is_redundant() || !(0..C).any(slips) {
+        let is_loaded = H::ELEMENTS.iter().any(|element| element.loaded_by_constraint);
+        if !self.is_redundant() || !((0..C).any(slips) || is_loaded) {
             return false;
         }
         let motion = self.reactions(t, state);
+        let loads = is_loaded.then(|| self.system.loads(t, state, &self.lifted_switches(t, state)));
         self.idle(&motion).any(|idle| {
+            // The load of a grip has to be one number.
+            let responses = loads.iter().flat_map(|loads| &loads.responses);
+            let mut changes = responses.map(|responses| {
+                let parts = || idle.iter().zip(responses).map(|(l, response)| l * response);
+                (parts().sum::<f64>(), parts().map(f64::abs).sum::<f64>())
+            });
+            if changes.any(|(sum, size)| sum.abs() > NOTHING * size) {
+                return true;
+            }
             (0..N).any(|i| {
                 let parts = || idle.iter().zip(&motion.free.responses).map(|(l, response)| l * response[i]);
                 let (sum, size): (f64, f64) = (parts().sum(), parts().map(f64::abs).sum());

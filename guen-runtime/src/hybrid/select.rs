@@ -323,6 +323,11 @@ where
         let series = self.jets(t, state, order);
         let time = Jet::line(RunningError::once(t), RunningError::exact(1.0));
         let motion = self.reactions(time, &series);
+        // Where friction may take more of a load than there is, no load is the one.
+        let is_loaded = |c: usize| H::ELEMENTS[c].loaded_by_constraint && self.mode.0[c].slips();
+        if (0..C).any(is_loaded) && !(motion.regularity.coefficient(0).value > 0.0) {
+            return Verdict::Inconsistent;
+        }
         let mut verdict = Verdict::Consistent;
         // A function that must hold: `strict` where one that vanishes identically does not.
         let mut demand = |jet: &Jet, from: usize, strict: bool| match sign(jet, from, order, part) {

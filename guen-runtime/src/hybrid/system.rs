@@ -1,6 +1,7 @@
 //! The interface between a declared system with contacts and the run time: one trait, of straight-line programs and tables.
 
 use crate::hybrid::element::{Element, Signal};
+use crate::hybrid::loads::Loads;
 use crate::hybrid::mode::Mode;
 use crate::numbers::lift::Lift;
 use crate::numbers::real::Real;
@@ -140,6 +141,13 @@ pub trait HybridSystem<const N: usize, const W: usize, const C: usize, const S: 
     #[inline]
     fn row_drifts(&self, _t: f64, _state: &[f64; N]) -> [f64; W] {
         [0.0; W]
+    }
+
+    /// The reactions of permanent constraints that load grips, of elements that are
+    /// [`loaded_by_constraint`](Element::loaded_by_constraint). Without any, [`Loads::none`].
+    #[inline]
+    fn loads<R: Lift<f64>>(&self, _t: R, _state: &[R; N], _switches: &[R; S]) -> Loads<R, W, C> {
+        Loads::none()
     }
 
     /// The restitutions of contacts, between zero and one; zero for other elements.

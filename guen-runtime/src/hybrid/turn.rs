@@ -6,6 +6,7 @@ use crate::hybrid::element::{Kind, Signal};
 use crate::hybrid::error::HybridCause;
 use crate::hybrid::impact::{Impact, Unsolved};
 use crate::hybrid::in_mode::{InMode, Leaning, moved};
+use crate::hybrid::loads::Loads;
 use crate::hybrid::located::side;
 use crate::hybrid::mode::{ElementState, Mode};
 use crate::hybrid::pivots::Pivots;
@@ -284,12 +285,17 @@ where
                 || known[c].latch == ElementState::Locked
                 || H::ELEMENTS[c].kind == Kind::Grip
         });
+        let loads = match H::ELEMENTS.iter().any(|element| element.loaded_by_constraint) {
+            true => self.in_mode.system.loads(self.t, &self.state, &self.in_mode.switches),
+            false => Loads::none(),
+        };
         let impact = Impact {
             elements: &H::ELEMENTS,
             delassus: &free.delassus,
             before,
             takes_part,
             friction: free.friction,
+            loads: &loads.responses,
             restitutions: self.in_mode.system.restitutions(),
         };
         let mut struck = impact.solve().map_err(|why| match why {
@@ -364,7 +370,13 @@ where
         let motion = self.in_mode.reactions(self.t, &self.state);
         let (mut contact, mut p) = ("", f64::INFINITY);
         for (c, element) in H::ELEMENTS.iter().enumerate() {
-            let Some(load) = element.load.filter(|_| self.in_mode.mode.0[c].slips()) else { continue };
+            if !self.in_mode.mode.0[c].slips() {
+                continue;
+            }
+            if element.loaded_by_constraint && !(motion.regularity >= p) {
+                (contact, p) = (element.name, motion.regularity);
+            }
+            let Some(load) = element.load else { continue };
             let along: f64 = element
                 .tangential
                 .iter()

@@ -97,6 +97,7 @@ impl<const W: usize, const C: usize> Phase<'_, f64, W, C> {
         let slips = turns.iter().filter(|turns| **turns).count();
         let Some(&parts) = STARTS.get(slips) else { return };
         let delassus = self.delassus.map(|row| row.map(Dual::constant));
+        let loads = self.loads.map(|row| row.map(Dual::constant));
         let phase = Phase {
             elements: self.elements,
             delassus: &delassus,
@@ -104,6 +105,7 @@ impl<const W: usize, const C: usize> Phase<'_, f64, W, C> {
             scale: self.scale,
             participants: self.participants.map(|participant| participant.map(Dual::constant)),
             friction: self.friction.map(Dual::constant),
+            loads: &loads,
         };
         let part = core::f64::consts::TAU / parts as f64;
         let starts = (0..slips).fold(1_usize, |product, _| product * parts);

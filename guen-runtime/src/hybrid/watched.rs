@@ -125,7 +125,7 @@ where
         let (mut slips, mut locked) = (false, false);
         for (c, slots) in elements.iter_mut().enumerate() {
             *slots = self.of_element(sides, c, motion);
-            slips |= self.mode.0[c].slips() && H::ELEMENTS[c].load.is_some();
+            slips |= self.mode.0[c].slips() && H::ELEMENTS[c].is_loaded();
             locked |= self.mode.0[c] == ElementState::Locked;
         }
         if locked {
@@ -199,7 +199,7 @@ where
     /// The margins of the cone of an element that sticks: of one component on both sides, of two the difference of squares.
     pub(super) fn margins<R: Lift<f64>>(&self, c: usize, motion: &Reactions<R, N, W, C>) -> [Option<R>; 2] {
         let Reactions { free, reactions, .. } = motion;
-        let load = H::ELEMENTS[c].load.map_or(R::zero(), |row| reactions[row]);
+        let load = H::ELEMENTS[c].load.map_or(motion.loads[c], |row| reactions[row]);
         let limit = free.stiction[c].times_plus(load, free.limits[c]);
         match H::ELEMENTS[c].tangential {
             &[row] => [Some(limit - reactions[row]), Some(limit + reactions[row])],

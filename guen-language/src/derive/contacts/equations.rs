@@ -1,6 +1,6 @@
 //! The equations of contacts: the motion without their forces, and what their forces do to it.
 
-use guen_symbolic::{Derivation, ExprId, Flow, Substitution, Verdict, weighted_cost};
+use guen_symbolic::{Derivation, ExprId, Flow, Substitution, Verdict, Workbench, weighted_cost};
 
 use super::super::{faults, fixed};
 use crate::diagnostics::{Fault, Faults};
@@ -31,6 +31,8 @@ pub(in crate::derive) struct ContactFunctions {
     pub(in crate::derive) limits: Vec<ExprId>,
     /// The conditions under which contacts close, and whose rise unlocks latches; `None` where nothing is declared.
     pub(in crate::derive) conditions: [Vec<Option<ExprId>>; 2],
+    /// The reactions of permanent constraints that load grips without forces of contacts, each before its derivatives by these.
+    pub(in crate::derive) loads: Vec<ExprId>,
     pub(in crate::derive) restitutions: Vec<ExprId>,
     /// The functions of the switches.
     pub(in crate::derive) switches: Vec<ExprId>,
@@ -77,6 +79,7 @@ impl ContactFunctions {
             &mut self.friction,
             &mut self.stiction,
             &mut self.limits,
+            &mut self.loads,
             &mut self.restitutions,
             &mut self.switches,
             &mut self.resets,
@@ -138,7 +141,7 @@ pub(in crate::derive) fn derive(
     // A limit that is written out needs no coefficient.
     let coefficients = |of: fn(&crate::model::ContactEntry<'_>) -> Option<ExprId>| {
         let entries = contacts.entries.iter().map(move |entry| match entry.kind {
-            ContactKind::Grip if entry.loaded_by.is_none() => zero,
+            ContactKind::Grip if entry.loaded_by.is_none() && entry.load_reaction.is_none() => zero,
             _ => or_zero(of(entry)),
         });
         entries.collect::<Vec<ExprId>>()
@@ -148,6 +151,11 @@ pub(in crate::derive) fn derive(
         ContactKind::Grip => zero,
         _ => or_zero(entry.gap),
     };
+    let loading = contacts.entries.iter().filter(|entry| entry.load_reaction.is_some()).count();
+    // They come after the outputs.
+    let reactions = derivation.outputs.split_off(derivation.outputs.len() - loading);
+    let forces: Vec<ExprId> = contacts.rows().map(|row| row.force).collect();
+    let loads = affine(bench, &forces, &reactions);
     let mut functions = ContactFunctions {
         gaps: entries().map(gap).collect(),
         rows: rows.clone(),
@@ -159,6 +167,7 @@ pub(in crate::derive) fn derive(
             entries().map(|entry| entry.when).collect(),
             entries().map(|entry| entry.release).collect(),
         ],
+        loads,
         restitutions: entries().map(|entry| entry.restitution).collect(),
         switches: contacts.switches.iter().map(|switch| switch.function).collect(),
         resets: contacts.resets.iter().map(|reset| reset.function).collect(),
@@ -183,6 +192,24 @@ pub(in crate::derive) fn derive(
     motions.truncate(LISTS);
     let motions = motions.into_iter().map(|(_, motion)| motion).collect();
     Some(ContactEquations { motions, functions })
+}
+
+/// Each of some expressions without forces, before its derivatives by them, in which it is linear.
+fn affine(bench: &mut Workbench, forces: &[ExprId], expressions: &[ExprId]) -> Vec<ExprId> {
+    let zero = bench.graph.zero();
+    let mut unpressed = Substitution::new(forces.iter().map(|force| (*force, zero)));
+    let mut found = Vec::new();
+    for e in expressions {
+        let free = unpressed.of(&mut bench.graph, *e);
+        found.push(bench.keep_large(free));
+        for force in forces {
+            let slope = Flow::partial(&bench.graph, *force).of(&mut bench.graph, *e);
+            let slope = unpressed.of(&mut bench.graph, slope);
+            let slope = bench.tidy(slope);
+            found.push(bench.keep_large(slope));
+        }
+    }
+    found
 }
 
 /// Reports gaps that never change, and states whose rates depend on forces of contacts.

@@ -34,6 +34,8 @@ pub(super) struct Matrix<'m> {
     /// The Delassus matrix, its lower triangle row by row.
     pub(super) delassus: &'m [ExprId],
     pub(super) friction: &'m [ExprId],
+    /// The reactions of permanent constraints that load grips, each before its derivatives by the forces of the rows.
+    pub(super) loads: &'m [ExprId],
     /// Constants with their limits.
     pub(super) limits: &'m [(ExprId, [ExprId; 2])],
 }
@@ -117,6 +119,28 @@ pub(super) fn prove(
                 continue;
             }
             doubtful.extend(reached.iter().map(|row| (slip.contact, row.contact)));
+        }
+        // A load that the grip itself changes, or that what it presses does, may grow faster than friction does.
+        let mut loads = matrix.loads.chunks(1 + count);
+        for (contact, entry) in contacts.entries.iter().enumerate() {
+            let Some(load) = entry.load_reaction.and_then(|_| loads.next()) else { continue };
+            let slips = matches!(
+                states[contact],
+                ContactState::Slip | ContactState::SlipPlus | ContactState::SlipMinus
+            );
+            if !slips || bench.graph.is_zero(matrix.friction[contact]) {
+                continue;
+            }
+            let moving = |row: &Row| {
+                let state = states[row.contact];
+                !matches!(state, ContactState::Open | ContactState::Free)
+            };
+            let mut acting: Vec<Row> = rows.iter().flatten().copied().collect();
+            acting.retain(moving);
+            acting.retain(|row| bench.verdict_on_manifold(load[1 + row.place]) != Verdict::Zero);
+            let mut pressing: Vec<usize> = acting.iter().map(|row| row.contact).collect();
+            pressing.dedup();
+            doubtful.extend(pressing.into_iter().map(|other| (contact, other)));
         }
         found.doubtful.push(doubtful);
     }

@@ -34,7 +34,8 @@ pub(in crate::derive) fn programs(
     let rows = &functions.rows;
     let lists: Vec<Vec<ExprId>> = motions.iter().map(|motion| motion.list(functions)).collect();
     let mut values = values_by_state(bench, contacts, functions);
-    let mut held = Held::new(&mut bench.graph, &lists.concat(), &mut values);
+    let mut held =
+        Held::new(&mut bench.graph, &[lists.concat(), functions.loads.clone()].concat(), &mut values);
     if switches.len() + functions.resets.len() + held.branches.len() > MAX_SWITCHES {
         let text = format!(
             "the motion between contacts changes its formula at the zeros of {} functions, and {MAX_SWITCHES} are allowed",
@@ -52,6 +53,7 @@ pub(in crate::derive) fn programs(
         entries.map(|(i, e)| if following.contains(&i) { *e } else { held.of(graph, *e) }).collect()
     };
     let lists: Vec<Vec<ExprId>> = lists.iter().map(|list| hold(&mut bench.graph, &mut held, list)).collect();
+    let loads: Vec<ExprId> = functions.loads.iter().map(|e| held.of(&mut bench.graph, *e)).collect();
     let one = bench.graph.one();
     let opposite = bench.graph.neg(one);
     let [when, release] = &functions.conditions;
@@ -74,6 +76,9 @@ pub(in crate::derive) fn programs(
     if has_conditions {
         builder.add_cold(function::CONDITIONS, &conditions);
     }
+    if !loads.is_empty() {
+        builder.add_cold(function::LOADS, &loads);
+    }
     builder.add_cold(function::SIGNALS, &signals);
     if !functions.given.is_empty() {
         builder.add_cold(function::RESETS, &functions.given);
@@ -83,7 +88,7 @@ pub(in crate::derive) fn programs(
         builder.add_cold(function::CONTACT_OUTPUTS, &functions.outputs);
     }
     let programs = builder.finish();
-    let matrix = Matrix { delassus, friction: &functions.friction, limits };
+    let matrix = Matrix { delassus, friction: &functions.friction, loads: &loads, limits };
     let facts = ContactFacts {
         modes: modes.to_vec(),
         switches: switches.to_vec(),

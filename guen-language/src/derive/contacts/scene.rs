@@ -111,10 +111,11 @@ impl<'c, 'a> SceneContacts<'c, 'a> {
     /// The quantities of contacts that the modes of the scene watch, and those that decide transitions and impacts.
     pub(in crate::derive) fn watched(&self) -> Vec<(Reason, ExprId)> {
         let mut found = Vec::new();
-        let ContactFunctions { gaps, rows, friction, stiction, limits, conditions, .. } = &self.functions;
+        let ContactFunctions { gaps, rows, friction, stiction, limits, loads, conditions, .. } =
+            &self.functions;
         let Some(motion) = self.motions.first() else { return found };
         let [when, release] = conditions;
-        let mut first = 0;
+        let (mut first, mut loading) = (0, 0);
         for (place, entry) in self.contacts.entries.iter().enumerate() {
             let mut add = |e: ExprId| found.push((Reason::Contact(entry.name.text.clone()), e));
             let count = entry.rows.len();
@@ -134,6 +135,11 @@ impl<'c, 'a> SceneContacts<'c, 'a> {
                 add(list[place]);
             }
             release[place].into_iter().for_each(&mut add);
+            if entry.load_reaction.is_some() {
+                let size = 1 + rows.len();
+                loads[loading * size..][..size].iter().for_each(|e| add(*e));
+                loading += 1;
+            }
             first += count;
         }
         for switch in &self.switches {
@@ -204,7 +210,8 @@ impl<'c, 'a> SceneContacts<'c, 'a> {
             });
             *condition = condition.filter(|_| !is_lost).map(|e| view.of(model, e));
         }
-        for list in [&mut seen.friction, &mut seen.stiction, &mut seen.limits, &mut seen.restitutions] {
+        let coefficients = [&mut seen.friction, &mut seen.stiction, &mut seen.limits];
+        for list in coefficients.into_iter().chain([&mut seen.loads, &mut seen.restitutions]) {
             list.iter_mut().for_each(|e| *e = view.of(model, *e));
         }
         for switch in &switches {

@@ -8,6 +8,8 @@ mod words;
 
 use guen_symbolic::FormShape;
 
+use coefficients::Loading;
+
 use super::*;
 use crate::limits::MAX_CONTACTS;
 use crate::model::contact::{ContactEntry, ContactKind, Row, SwitchEntry};
@@ -147,12 +149,16 @@ impl<'a> Resolver<'a, '_> {
             this.force_of_grip(contact, clause).ok()
         };
         let limit = force(self, ClauseWord::Limit);
-        let loaded_by = contact.clause(ClauseWord::Load).and_then(|clause| self.loading_row(contact, clause));
-        let load = match loaded_by {
+        let loading = contact.clause(ClauseWord::Load).and_then(|clause| self.loading(contact, clause));
+        let load = match loading {
             Some(_) => None,
             None => force(self, ClauseWord::Load),
         };
-        let loaded_by = loaded_by.flatten();
+        let (loaded_by, load_reaction) = match loading {
+            Some(Loading::Row(row)) => (Some(row), None),
+            Some(Loading::Constraint(reaction)) => (None, Some(reaction)),
+            Some(Loading::Fault) | None => (None, None),
+        };
         let condition = |this: &mut Self, word: ClauseWord| {
             let clause = contact.clause(word)?;
             let value = this.eval.scalar_at(Place::Condition, &clause.value).ok()?;
@@ -216,6 +222,7 @@ impl<'a> Resolver<'a, '_> {
             restitution: restitution.unwrap_or(zero),
             limit,
             loaded_by,
+            load_reaction,
             when,
             release,
         };

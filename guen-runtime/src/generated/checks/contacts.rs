@@ -1,7 +1,7 @@
 //! Results of a program with contacts, as the types of `hybrid`.
 
 use crate::Real;
-use crate::hybrid::{Conditions, FreeMotion};
+use crate::hybrid::{Conditions, FreeMotion, Loads};
 
 /// The free motion of a system with contacts out of the values of its program: rates, gaps, rows, their rates, the lower
 /// triangle of the Delassus matrix, the rates of the quasi-velocities that unit forces cause, coefficients of friction and of
@@ -45,6 +45,26 @@ pub fn free_motion<R: Real, const X: usize, const N: usize, const W: usize, cons
 pub fn conditions<R: Real, const C: usize>(values: &[R]) -> Conditions<R, C> {
     let value = |i: usize| values.get(i).copied().unwrap_or_else(R::zero);
     Conditions { when: core::array::from_fn(value), release: core::array::from_fn(|i| value(C + i)) }
+}
+
+/// The loads of grips under permanent constraints: of each of these elements the reaction without forces of contacts, then what unit forces
+/// along the rows add to it.
+///
+/// ```
+/// let loads = guen_runtime::checks::loads::<f64, 1, 2>(&[1], &[3.0, 0.5]);
+/// assert_eq!((loads.free, loads.responses), ([0.0, 3.0], [[0.0], [0.5]]));
+/// ```
+pub fn loads<R: Real, const W: usize, const C: usize>(elements: &[usize], values: &[R]) -> Loads<R, W, C> {
+    let mut loads = Loads::none();
+    let mut rest = values.iter().copied();
+    for &element in elements {
+        let mut next = || rest.next().unwrap_or_else(R::zero);
+        if element < C {
+            loads.free[element] = next();
+            loads.responses[element] = core::array::from_fn(|_| next());
+        }
+    }
+    loads
 }
 
 /// The values of switches, with places for the branches of piecewise functions behind them.

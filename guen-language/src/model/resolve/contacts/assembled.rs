@@ -19,6 +19,7 @@ pub(in crate::model::resolve) fn assembled<'a>(
     pressed.structure = structure;
     let rows = entries.iter().flat_map(|entry| &entry.rows);
     pressed.forces.extend(rows.clone().map(|row| Force { magnitude: row.force, along: row.form }));
+    pressed.outputs.extend(entries.iter().filter_map(|entry| entry.load_reaction));
     pressed.inputs.extend(switches.iter().map(|switch| switch.symbol));
     pressed.inputs.extend(rows.map(|row| row.force));
     let switched = switches.iter();

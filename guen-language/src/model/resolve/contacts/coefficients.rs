@@ -6,6 +6,17 @@ use super::*;
 use crate::model::accelerations::REACTION;
 use crate::syntax::{Name, SPEED};
 
+/// The load of a grip that is written as a reaction.
+#[derive(Clone, Copy)]
+pub(super) enum Loading {
+    /// The force of a row, by its place among those of all contacts.
+    Row(usize),
+    /// The magnitude of a permanent constraint's reaction.
+    Constraint(ExprId),
+    /// A fault was reported.
+    Fault,
+}
+
 impl<'a> Resolver<'a, '_> {
     /// A coefficient of friction, in which `speed` is the magnitude of the slip.
     pub(super) fn coefficient(
@@ -148,28 +159,30 @@ impl<'a> Resolver<'a, '_> {
         e.children().into_iter().find_map(|child| self.place_of(child, symbol))
     }
 
-    /// The row whose force loads a grip, where the load is written as a reaction; inside of it none after a fault.
-    pub(super) fn loading_row(&mut self, grip: &Contact, clause: &Clause) -> Option<Option<usize>> {
-        let ExpressionKind::Call { function, arguments, list } = &clause.value.kind else { return None };
+    /// The load of a grip, where it is written as a reaction.
+    pub(super) fn loading(&mut self, grip: &Contact, clause: &Clause) -> Option<Loading> {
+        let (call, axis) = match &clause.value.kind {
+            ExpressionKind::Field { base, name } => (&base.kind, Some(name)),
+            kind => (kind, None),
+        };
+        let ExpressionKind::Call { function, arguments, list } = call else { return None };
         let [Expression { kind: ExpressionKind::Name(name), .. }] = &arguments[..] else { return None };
         let scope = &self.eval.scope;
         if function.text != REACTION || scope.category(REACTION).is_some() {
             return None;
         }
         if scope.category(&name.text) == Some(Category::Constraint) {
-            self.eval.faults.report(
-                Fault::new(name.span(), format!("`{name}` is a constraint that always holds"))
-                    .note("a grip is loaded by an expression, or by the force of a contact without friction")
-                    .help("declare it as a contact, or write its force as an expression"),
-            );
-            return Some(None);
+            return Some(self.loading_constraint(name, axis));
+        }
+        if axis.is_some() {
+            return None;
         }
         if let Some(fault) = self.circle(grip, name) {
             self.eval.faults.report(fault);
-            return Some(None);
+            return Some(Loading::Fault);
         }
         let Ok((name, contact)) = self.eval.contact_named(REACTION, arguments, *list) else {
-            return Some(None);
+            return Some(Loading::Fault);
         };
         if !contact.is_smooth {
             let text = format!("`{name}` has friction of its own, and cannot load a grip");
@@ -177,11 +190,38 @@ impl<'a> Resolver<'a, '_> {
                 Fault::new(name.span(), text)
                     .note("a grip is loaded by the force of a contact without friction"),
             );
-            return Some(None);
+            return Some(Loading::Fault);
         }
         let place = self.contacts.iter().position(|known| known.entry.name.text == name.text);
         let rows_of = |count: usize| self.contacts[..count].iter().map(|known| known.entry.rows.len()).sum();
-        Some(place.map(rows_of))
+        Some(place.map_or(Loading::Fault, |place| Loading::Row(rows_of(place))))
+    }
+
+    /// The reaction of a permanent constraint that loads a grip, of a vector the component along an axis.
+    fn loading_constraint(&mut self, name: &Name, axis: Option<&Name>) -> Loading {
+        let Ok(forms) = self.eval.name(name) else { return Loading::Fault };
+        let own = match (forms, axis) {
+            (Value::Scalar(form), None) => Some(form),
+            (Value::Vector(forms), Some(axis)) => {
+                let place = ["x", "y", "z"].iter().position(|known| *known == axis.text);
+                place.map(|place| forms[place]).filter(|form| !self.eval.bench.graph.is_zero(*form))
+            }
+            _ => None,
+        };
+        let fault = match (own, axis) {
+            (Some(form), _) => match self.eval.multipliers(Value::Scalar(form), name) {
+                Value::Scalar(reaction) => return Loading::Constraint(reaction),
+                _ => return Loading::Fault,
+            },
+            (None, None) => Fault::new(name.span(), format!("`{name}` has several reactions"))
+                .note("a grip is loaded by one of them")
+                .help(format!("write one component: `reaction({name}).x`")),
+            (None, Some(axis)) => {
+                Fault::new(axis.span(), format!("the reaction of `{name}` has no component `{axis}`"))
+            }
+        };
+        self.eval.faults.report(fault);
+        Loading::Fault
     }
 
     /// The fault of a grip that is loaded by its own force, or by that of another grip.

@@ -1,0 +1,242 @@
+//! Grips that the reaction of a permanent constraint loads, beside equations with multipliers and closed forms.
+
+use guen::System;
+use guen::hybrid::TransitionKind;
+use guen::mechanical_system;
+use nalgebra::{DMatrix, DVector};
+
+mechanical_system! {
+    /// A bead on a rough wire, a circle of radius 1 in a vertical plane.
+    pub system Bead {
+        constants { m > 0, mu = 0.3, g = 9.81 }
+        coordinates { x, y }
+        parameters { u = x*dot(y) - y*dot(x); }
+        kinetic_energy = m/2*(dot(x)^2 + dot(y)^2);
+        potential_energy = m*g*y;
+        constraints { wire: x*dot(x) + y*dot(y) = 0; }
+        contacts { rub: grip = u, friction = mu, load = reaction(wire); }
+    }
+}
+
+mechanical_system! {
+    /// Three velocities that a constraint couples, with friction along two others: what slips changes the reaction that loads it.
+    pub system Coupled {
+        constants { a, b, c, ab, ac, bc, l1, l2, l3, d1, d2, d3, e1, e2, e3, f1, f2, f3, mu, nu }
+        coordinates { x, y, z }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = a/2*dot(x)^2 + b/2*dot(y)^2 + c/2*dot(z)^2
+            + ab*dot(x)*dot(y) + ac*dot(x)*dot(z) + bc*dot(y)*dot(z);
+        forces { f1 along dot(x); f2 along dot(y); f3 along dot(z); }
+        constraints { row: l1*dot(x) + l2*dot(y) + l3*dot(z) = 0; }
+        contacts {
+            first: grip = d1*dot(x) + d2*dot(y) + d3*dot(z), friction = mu, load = reaction(row);
+            second: grip = e1*dot(x) + e2*dot(y) + e3*dot(z), friction = nu, load = reaction(row);
+        }
+    }
+}
+
+mechanical_system! {
+    /// A block on a table that is a constraint on its velocity: its weight is the reaction.
+    pub system OnTable {
+        constants { m > 0, mu = 0.5, g = 9.81 }
+        coordinates { x, z }
+        inputs { push }
+        parameters { u = dot(x); }
+        kinetic_energy = m/2*(dot(x)^2 + dot(z)^2);
+        potential_energy = m*g*z;
+        forces { push along dot(x); }
+        constraints { table: dot(z) = 0; }
+        contacts { sole: grip = u, friction = mu, load = reaction(table); }
+        outputs { weight = reaction(table); rubs = reaction(sole); }
+    }
+}
+
+/// Numbers between minus one and one, from a seed.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+#[test]
+fn a_bead_slips_against_the_reaction_of_its_wire_whatever_its_sign() {
+    let (m, mu, g) = (0.7, 0.3, 9.81);
+    let system = Bead { m, mu, g }.prepare().unwrap();
+    let mut signs = [0; 2];
+    for k in 0..40 {
+        let (angle, speed) = (0.37 * f64::from(k), 5.0 * (0.7 * f64::from(k)).sin());
+        let state = [angle.cos(), angle.sin(), speed];
+        // m u^2 = m g sin - lambda.
+        let reaction = m * g * angle.sin() - m * speed * speed;
+        signs[usize::from(reaction > 0.0)] += 1;
+        let (rub, sign) =
+            if speed > 0.0 { (bead::Rub::SlipForward, 1.0) } else { (bead::Rub::SlipBackward, -1.0) };
+        let in_mode = system.in_mode(bead::Mode { rub });
+        let rate = System::<f64, 3>::rhs(&in_mode, 0.0, &state)[2];
+        let expected = -g * angle.cos() - sign * mu * reaction.abs() / m;
+        assert!((rate - expected).abs() < 1e-13 * (1.0 + expected.abs()), "{k}: {rate} {expected}");
+        assert!(
+            (in_mode.reactions(0.0, &state).loads[0] - reaction.abs()).abs() < 1e-13 * (1.0 + reaction.abs())
+        );
+    }
+    assert!(signs[0] > 5 && signs[1] > 5, "{signs:?}");
+}
+
+#[test]
+fn a_bead_comes_to_rest_where_friction_holds_it() {
+    let (m, mu, g) = (0.7, 0.3, 9.81);
+    let system = Bead { m, mu, g }.prepare().unwrap();
+    let motion =
+        system.simulation(&bead::State { x: 0.8, y: -0.6, u: 4.0 }).tolerance(1e-11).run(0.0..20.0).unwrap();
+    let last = motion.transitions().last().unwrap();
+    assert_eq!(last.kind, TransitionKind::Sticks);
+    let end = motion.end();
+    // At rest the weight is within the cone of its own reaction: |x| <= mu |y|.
+    assert!(end.u.abs() < 1e-12 && end.x.abs() <= mu * end.y.abs(), "{end:?}");
+    // Each turn is where the tangent of the slope, without friction, would lead back.
+    assert!(motion.transitions().len() > 2);
+    // The same motion, by the angle, with small steps from one turn to the next.
+    let (mut angle, mut speed) = ((-0.6_f64).atan2(0.8), 4.0_f64);
+    let first = motion.transitions().iter().find(|t| t.kind == TransitionKind::Reversed).unwrap();
+    let rate = |angle: f64, speed: f64| {
+        let reaction = m * g * angle.sin() - m * speed * speed;
+        -g * angle.cos() - speed.signum() * mu * reaction.abs() / m
+    };
+    let (steps, mut t) = (200_000, 0.0);
+    let h = first.t / f64::from(steps);
+    for _ in 0..steps {
+        let (k1, l1) = (speed, rate(angle, speed));
+        let (k2, l2) = (speed + h / 2.0 * l1, rate(angle + h / 2.0 * k1, speed + h / 2.0 * l1));
+        angle += h * k2;
+        speed += h * l2;
+        t += h;
+    }
+    assert!((t - first.t).abs() < 1e-9 && speed.abs() < 1e-7, "{speed:e} at {t}");
+    let [x, y, _] = first.state_before;
+    assert!((y.atan2(x) - angle).sin().abs() < 1e-7, "{angle}");
+}
+
+/// The accelerations of a mode by multipliers: of the constraint, and of what sticks; none where no sign of the reaction fits, and the
+/// number of signs that do.
+fn by_multipliers(
+    (masses, forces): (&DMatrix<f64>, &[f64; 3]),
+    row: &[f64; 3],
+    grips: &[([f64; 3], f64, Option<f64>); 2],
+) -> Vec<(DVector<f64>, f64)> {
+    let stuck: Vec<&[f64; 3]> = grips.iter().filter(|grip| grip.2.is_none()).map(|grip| &grip.0).collect();
+    let size = 4 + stuck.len();
+    let mut found = Vec::new();
+    for sign in [1.0, -1.0] {
+        let (mut matrix, mut right) = (DMatrix::zeros(size, size), DVector::zeros(size));
+        for i in 0..3 {
+            right[i] = forces[i];
+            for j in 0..3 {
+                matrix[(i, j)] = masses[(i, j)];
+            }
+            // The reaction, with the friction that it causes.
+            let friction: f64 =
+                grips.iter().map(|(d, mu, slips)| slips.map_or(0.0, |slip| mu * sign * slip * d[i])).sum();
+            matrix[(i, 3)] = friction - row[i];
+            matrix[(3, i)] = row[i];
+            for (k, d) in stuck.iter().enumerate() {
+                matrix[(i, 4 + k)] = -d[i];
+                matrix[(4 + k, i)] = d[i];
+            }
+        }
+        let Some(solved) = matrix.lu().solve(&right) else { continue };
+        if solved[3] * sign >= 0.0 {
+            found.push((solved.clone(), solved[3]));
+        }
+    }
+    found
+}
+
+#[test]
+fn coupled_slips_have_the_accelerations_of_multipliers() {
+    let mut random = Random(7);
+    let (mut compared, mut coupled) = (0, 0);
+    for _ in 0..400 {
+        let mut three = || [random.next(), random.next(), random.next()];
+        let (factor, l, d, e, f) = ([three(), three(), three()], three(), three(), three(), three());
+        let masses = DMatrix::from_fn(3, 3, |i, j| {
+            let product: f64 = (0..3).map(|k| factor[i][k] * factor[j][k]).sum();
+            product + if i == j { 0.3 } else { 0.0 }
+        });
+        let (mu, nu) = (0.4 * random.next().abs(), 0.4 * random.next().abs());
+        let system = Coupled {
+            a: masses[(0, 0)],
+            b: masses[(1, 1)],
+            c: masses[(2, 2)],
+            ab: masses[(0, 1)],
+            ac: masses[(0, 2)],
+            bc: masses[(1, 2)],
+            l1: l[0],
+            l2: l[1],
+            l3: l[2],
+            d1: d[0],
+            d2: d[1],
+            d3: d[2],
+            e1: e[0],
+            e2: e[1],
+            e3: e[2],
+            f1: f[0],
+            f2: f[1],
+            f3: f[2],
+            mu,
+            nu,
+        };
+        let system = system.prepare().unwrap();
+        for first in [coupled::First::Stick, coupled::First::SlipForward, coupled::First::SlipBackward] {
+            for second in
+                [coupled::Second::Stick, coupled::Second::SlipForward, coupled::Second::SlipBackward]
+            {
+                let slips = |stick: bool, forward: bool| (!stick).then_some(if forward { 1.0 } else { -1.0 });
+                let grips = [
+                    (d, mu, slips(first == coupled::First::Stick, first == coupled::First::SlipForward)),
+                    (e, nu, slips(second == coupled::Second::Stick, second == coupled::Second::SlipForward)),
+                ];
+                let state = [0.0; 5];
+                let in_mode = system.in_mode(coupled::Mode { first, second });
+                let motion = in_mode.reactions(0.0, &state);
+                if motion.regularity < 1e-3 {
+                    continue;
+                }
+                let found = by_multipliers((&masses, &f), &l, &grips);
+                let [(solved, reaction)] = &found[..] else { panic!("{} answers", found.len()) };
+                let rates = System::<f64, 5>::rhs(&in_mode, 0.0, &state);
+                let scale = 1.0 + solved.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+                for i in 0..2 {
+                    assert!(
+                        (rates[3 + i] - solved[i]).abs() < 1e-9 * scale,
+                        "{first:?} {second:?} {rates:?} {solved}"
+                    );
+                }
+                for load in motion.loads {
+                    assert!((load - reaction.abs()).abs() < 1e-9 * scale, "{load} {reaction}");
+                }
+                compared += 1;
+                coupled += usize::from(grips.iter().any(|grip| grip.2.is_some()));
+            }
+        }
+    }
+    assert!(compared > 3000 && coupled > 2500, "{compared} {coupled}");
+}
+
+#[test]
+fn a_block_sticks_and_slips_by_its_weight_on_a_constraint() {
+    let (m, mu, g) = (2.0, 0.5, 9.81);
+    let system = OnTable { m, mu, g }.prepare().unwrap();
+    let hold = mu * m * g;
+    let start = on_table::State { u: 1.0, ..Default::default() };
+    let motion = system.driven(on_table::Inputs { push: 0.9 * hold }).simulate(&start, 0.0..50.0).unwrap();
+    // It slows down by 0.1 of the friction's deceleration, and stays.
+    let [.., last] = motion.transitions() else { panic!() };
+    assert_eq!(last.kind, TransitionKind::Sticks);
+    assert!((last.t - 1.0 / (0.1 * mu * g)).abs() < 1e-9, "{}", last.t);
+    assert_eq!(motion.end().u, 0.0);
+    let motion = system.driven(on_table::Inputs { push: 1.5 * hold }).simulate(&start, 0.0..2.0).unwrap();
+    assert!((motion.end().u - (1.0 + 2.0 * 0.5 * mu * g)).abs() < 1e-9, "{:?}", motion.end());
+}
