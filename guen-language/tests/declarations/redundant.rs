@@ -6,7 +6,7 @@ use guen_language::diagnostics::collect;
 use guen_language::report::Report;
 use guen_language::{model, parse};
 
-use crate::common::derived;
+use crate::common::{derived, evaluated};
 
 /// A coupler on three parallel cranks of one length: two loops of which one would do, for the coupler cannot turn.
 fn cranks(lengths: [&str; 3], parameters: &str) -> String {
@@ -105,6 +105,53 @@ fn what_is_said_twice_everywhere_is_named() {
         let note = "the velocities of `second` are those of `first`: it repeats or contradicts them";
         assert!(text.contains(note), "{text}");
     }
+}
+
+/// The rates of a particle on a circle of radius 1 that is declared by this equation, pushed along its first coordinate.
+fn rates_on_circle(equation: &str) -> Vec<f64> {
+    let text = format!(
+        "pub system Circle {{
+            constants {{ m > 0, k, n }}
+            coordinates {{ x, y }}
+            particles {{ m at vec(x, y); }}
+            forces {{ 1 along dot(x); }}
+            parameters {{ u = x*dot(y) - y*dot(x); }}
+            holonomic {{ circle: {equation} = 0; }}
+        }}"
+    );
+    derived(&text, |derived| {
+        let value = |symbol| match derived.model.bench.graph.symbol_info(symbol).name.as_str() {
+            "x" => 0.6,
+            "y" => 0.8,
+            "u" => -1.7,
+            "k" => -2.5,
+            "n" => 0.7,
+            _ => 1.3,
+        };
+        evaluated(&derived.system, function::RHS, value).expect("rates")
+    })
+}
+
+/// Points of the constraint manifold were found by making the constant factor zero, where every gradient vanishes.
+#[test]
+fn a_constant_factor_of_an_equation_changes_nothing() {
+    let plain = rates_on_circle("x^2 + y^2 - 1");
+    // Along the circle with the speed -1.7, pushed by 1/1.3.
+    for (rate, expected) in plain.iter().zip([1.7 * 0.8, -1.7 * 0.6, -0.8 / 1.3]) {
+        assert!((rate - expected).abs() < 1e-14, "{plain:?}");
+    }
+    for equation in [
+        "k*(x^2 + y^2 - 1)",
+        "k*x^2 + k*y^2 - k",
+        "n*k^2*x^2/2 + n^2*k*y^2*k/(2*n) - k^2*n/2",
+        "(k - n)*(x^2 + y^2 - 1)",
+        "(x^2 + y^2 - 1)/k",
+    ] {
+        let rates = rates_on_circle(equation);
+        assert!(rates.iter().zip(&plain).all(|(a, b)| (a - b).abs() < 1e-13), "{equation}: {rates:?}");
+    }
+    let text = fault(&circle("m*l*(x^2 + y^2)^2 - m*l^5"));
+    assert!(text.contains("the velocities of `second` are those of `first`"), "{text}");
 }
 
 #[test]

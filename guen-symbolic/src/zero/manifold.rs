@@ -57,7 +57,7 @@ const INSIDE: u8 = 2;
 
 impl Manifold {
     pub(super) fn new(graph: &mut Graph, equations: &[ExprId]) -> Self {
-        let mut equations = equations.to_vec();
+        let mut equations: Vec<_> = equations.iter().map(|e| without_constant_factors(graph, *e)).collect();
         equations.sort_unstable();
         equations.dedup();
         let variables: Vec<_> = graph
@@ -196,6 +196,53 @@ impl Manifold {
             }
         }
         Some(largest)
+    }
+}
+
+/// An equation without the constants that it is a multiple of: it would be solved by making one of them zero, and says nothing there.
+fn without_constant_factors(graph: &mut Graph, e: ExprId) -> ExprId {
+    let (_, own) = graph.split_coefficient(e);
+    match graph.node(own).clone() {
+        Node::Kept(inside) => without_constant_factors(graph, inside),
+        Node::Product(factors) => {
+            let others: Vec<_> =
+                factors.into_iter().filter(|(base, _)| !graph.roles(*base).is_constant()).collect();
+            match others[..] {
+                [] => e,
+                [(base, 1)] => without_constant_factors(graph, base),
+                _ => graph.product(&others),
+            }
+        }
+        Node::Sum { constant, terms } if constant.is_zero() => {
+            let mut common: Option<Vec<(ExprId, i32)>> = None;
+            for (term, _) in &terms {
+                let alone = [(*term, 1)];
+                let factors = if graph.factors(*term).is_empty() { &alone } else { graph.factors(*term) };
+                let constants = || factors.iter().filter(|(base, _)| graph.roles(*base).is_constant());
+                common = Some(match common {
+                    None => constants().copied().collect(),
+                    Some(common) => common
+                        .into_iter()
+                        .filter_map(|(base, k)| {
+                            let (_, other) = constants().find(|(b, _)| *b == base)?;
+                            ((k > 0) == (*other > 0))
+                                .then(|| (base, if k > 0 { k.min(*other) } else { k.max(*other) }))
+                        })
+                        .collect(),
+                });
+            }
+            let common = common.unwrap_or_default();
+            if common.is_empty() {
+                return e;
+            }
+            let divisor = graph.product(&common);
+            let terms: Vec<_> = terms
+                .iter()
+                .map(|(term, coefficient)| (graph.div(*term, divisor), coefficient.clone()))
+                .collect();
+            graph.linear(&terms)
+        }
+        _ => e,
     }
 }
 
