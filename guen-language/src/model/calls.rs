@@ -10,7 +10,7 @@ use super::evaluate::{Evaluated, Evaluator};
 use super::scope::Category;
 use super::value::Value;
 use crate::diagnostics::Fault;
-use crate::limits::{MAX_CALL_DEPTH, MAX_CALLS};
+use crate::limits::{MAX_CALL_DEPTH, MAX_CALLED_DEPTH, MAX_CALLS};
 use crate::names;
 use crate::syntax::{Expression, ExpressionKind, FunctionDefinition, Name, SuppliedFunction};
 
@@ -206,10 +206,18 @@ impl Evaluator<'_> {
             return self
                 .fail(Fault::new(name.span(), text).help("give a value that is used often a name by `let`"));
         }
+        let depth = function.value.depth();
+        if functions.depth + depth > MAX_CALLED_DEPTH {
+            let text =
+                format!("functions that call each other nest more than {MAX_CALLED_DEPTH} expressions here");
+            return self.fail(Fault::new(name.span(), text).help("give parts of them names with `let`"));
+        }
         let names = function.parameters.iter().map(|parameter| parameter.text.clone());
         let before = self.faults.count();
         functions.frames.push(names.zip(values).collect());
+        functions.depth += depth;
         let value = self.value(&function.value);
+        self.functions.depth -= depth;
         self.functions.frames.pop();
         // Of a chain of calls the first and the last.
         let is_outermost = self.functions.frames.is_empty() && self.functions.noted > before;

@@ -16,6 +16,8 @@ pub(super) struct DeclaredFunctions {
     pub(super) supplied: BTreeMap<String, (Option<Multivariate>, Vec<String>)>,
     /// The arguments of the calls that are being evaluated, the innermost last.
     pub(super) frames: Vec<BTreeMap<String, Value>>,
+    /// The depths of the functions' expressions in the calls that are being evaluated, added up.
+    pub(super) depth: usize,
     /// Calls evaluated so far.
     pub(super) calls: usize,
     /// Faults that were told the innermost call around them.

@@ -187,6 +187,11 @@ impl Expression {
         self.any(&|part| matches!(&part.kind, ExpressionKind::Name(own) if own.text == name))
     }
 
+    /// The most expressions inside of each other, itself among them.
+    pub fn depth(&self) -> usize {
+        1 + self.children().into_iter().map(Expression::depth).max().unwrap_or_default()
+    }
+
     /// The expressions directly inside, from left to right.
     pub fn children(&self) -> Vec<&Expression> {
         match &self.kind {

@@ -3,7 +3,9 @@
 
 use std::thread::Builder;
 
-use guen_language::limits::{MAX_BRANCHES, MAX_CONDITION_OPERATIONS, MAX_DEPTH, MAX_INDEX_OPERATIONS};
+use guen_language::limits::{
+    MAX_BRANCHES, MAX_CALLED_DEPTH, MAX_CONDITION_OPERATIONS, MAX_DEPTH, MAX_INDEX_OPERATIONS,
+};
 
 /// Half of the stack of a thread of Rust that asks for none.
 const STACK: usize = 1 << 20;
@@ -69,6 +71,28 @@ fn what_the_limits_allow_fits_into_half_of_a_small_stack() {
     let branches = " else if i > 7 { x along dot(x); }".repeat(MAX_BRANCHES - 1);
     let force = format!("for i in 0..2 {{ if i > 5 {{ x along dot(y); }} {branches} }} x");
     assert_eq!(first_error(system("", &force)), None);
+}
+
+/// Functions that call each other, each in the middle of an expression of so many levels.
+fn calling(functions: usize, levels: usize) -> String {
+    let call = |k: usize| if k == 0 { "u".to_owned() } else { format!("f{}(u)", k - 1) };
+    let one = |k: usize| format!("fn f{k}(u) = {};", nested(levels, "sin(", &call(k), ")"));
+    (0..functions).map(one).collect()
+}
+
+#[test]
+fn functions_that_call_each_other_are_no_deeper_than_an_expression() {
+    let error = |functions: usize, levels: usize| {
+        let force = nested(MAX_DEPTH - 1, "sin(", &format!("f{}(x)", functions - 1), ")");
+        first_error(system(&calling(functions, levels), &force))
+    };
+    // A call and its argument are two expressions more.
+    let within = MAX_CALLED_DEPTH / 16 - 2;
+    assert_eq!(error(16, within), None);
+    for (functions, levels) in [(16, within + 1), (16, MAX_DEPTH - 1), (3, MAX_DEPTH - 1)] {
+        let error = error(functions, levels).expect("an error");
+        assert!(error.contains("functions that call each other nest more than 256"), "{error}");
+    }
 }
 
 #[test]
