@@ -145,8 +145,10 @@ fn module(
     let alias = Ident::new("__guen", Span::call_site());
     quote! {
         #docs
-        #[allow(non_snake_case, non_camel_case_types, non_upper_case_globals, reason = "names are the user's own")]
-        #[allow(unreachable_pub, reason = "the visibility of the module is the user's choice")]
+        #[allow(
+            non_snake_case, non_camel_case_types, non_upper_case_globals, unreachable_pub,
+            reason = "names and visibility are the user's own"
+        )]
         #visibility mod #module {
             #[allow(unused_imports, reason = "small systems use few of its items")]
             use #private as #alias;
