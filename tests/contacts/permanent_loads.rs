@@ -48,6 +48,7 @@ mechanical_system! {
         constraints { table: dot(z) = 0; }
         contacts { sole: grip = u, friction = mu, load = reaction(table); }
         outputs { weight = reaction(table); rubs = reaction(sole); }
+        scene Sliding { track u; provide rubs; }
     }
 }
 
@@ -239,4 +240,11 @@ fn a_block_sticks_and_slips_by_its_weight_on_a_constraint() {
     assert_eq!(motion.end().u, 0.0);
     let motion = system.driven(on_table::Inputs { push: 1.5 * hold }).simulate(&start, 0.0..2.0).unwrap();
     assert!((motion.end().u - (1.0 + 2.0 * 0.5 * mu * g)).abs() < 1e-9, "{:?}", motion.end());
+    // A scene that asks for the speed alone knows the load as well.
+    assert_eq!(on_table::sliding::State::<f64>::NAMES, ["u"]);
+    let sliding = on_table::Sliding::from(OnTable { m, mu, g }).prepare().unwrap();
+    let push = on_table::Inputs { push: 0.9 * hold };
+    let own = sliding.driven(push.into()).simulate(&on_table::sliding::State { u: 1.0 }, 0.0..50.0).unwrap();
+    let [.., last] = own.transitions() else { panic!() };
+    assert!(last.kind == TransitionKind::Sticks && (last.t - 1.0 / (0.1 * mu * g)).abs() < 1e-9, "{last:?}");
 }
