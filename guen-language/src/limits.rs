@@ -26,9 +26,9 @@ pub const MAX_SWITCHES: usize = 64;
 /// The deepest nesting of functions of the declaration that call each other: each adds the depth of its expression to the stack.
 pub const MAX_CALL_DEPTH: usize = 16;
 
-/// The most expressions inside of each other in functions that call each other, those of all of them added up: as many as the deepest
-/// expression has, since these come on top of it on the stack.
-pub const MAX_CALLED_DEPTH: usize = 2 * MAX_DEPTH;
+/// The most expressions inside of each other in functions that call each other, those of all of them added up: with the deepest expression
+/// around the first call, these fit into half of the compiler's stack of 8 MB.
+pub const MAX_CALLED_DEPTH: usize = 512;
 
 /// The most calls of functions of the declaration, those inside of functions included: each is evaluated anew.
 pub const MAX_CALLS: usize = 10_000;

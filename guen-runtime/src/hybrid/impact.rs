@@ -16,7 +16,7 @@ pub(super) struct Impact<'a, R, const W: usize, const C: usize> {
     /// The elements that take part: contacts that touch, latches that lock or are locked, grips.
     pub(super) takes_part: [bool; C],
     pub(super) friction: [R; C],
-    /// What unit impulses along the rows add to those of permanent constraints that load grips.
+    /// The changes of the impulses of permanent constraints that load grips, by unit impulses along the rows.
     pub(super) loads: &'a [[R; W]; C],
     pub(super) restitutions: [f64; C],
 }

@@ -16,7 +16,7 @@ use crate::numbers::real::Real;
 pub struct Loads<R, const W: usize, const C: usize> {
     /// The reactions where no contact, grip or latch acts.
     pub free: [R; C],
-    /// What a unit reaction along every row adds to them.
+    /// The change of each by a unit reaction along every row.
     pub responses: [[R; W]; C],
 }
 
@@ -32,7 +32,7 @@ impl<R: Real, const W: usize, const C: usize> Loads<R, W, C> {
     }
 }
 
-/// What reactions add to the load of an element.
+/// The part of an element's load that reactions add.
 pub(super) fn added<R: Real, const W: usize>(responses: &[R; W], reactions: &[R; W]) -> R {
     responses.iter().zip(reactions).fold(R::zero(), |sum, (a, l)| l.times_plus(*a, sum))
 }

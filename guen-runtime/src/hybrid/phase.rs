@@ -64,7 +64,7 @@ pub(super) struct Phase<'a, R, const W: usize, const C: usize> {
     pub(super) scale: f64,
     pub(super) participants: [Participant<R>; C],
     pub(super) friction: [R; C],
-    /// What unit impulses along the rows add to those of permanent constraints that load grips.
+    /// The changes of the impulses of permanent constraints that load grips, by unit impulses along the rows.
     pub(super) loads: &'a [[R; W]; C],
 }
 
