@@ -99,7 +99,7 @@ fn a_bead_comes_to_rest_where_friction_holds_it() {
     assert!(end.u.abs() < 1e-12 && end.x.abs() <= mu * end.y.abs(), "{end:?}");
     // Each turn is where the tangent of the slope, without friction, would lead back.
     assert!(motion.transitions().len() > 2);
-    // The same motion, by the angle, with small steps from one turn to the next.
+    // The motion up to the first reversal again, integrated in the angle of the bead with the midpoint rule.
     let (mut angle, mut speed) = ((-0.6_f64).atan2(0.8), 4.0_f64);
     let first = motion.transitions().iter().find(|t| t.kind == TransitionKind::Reversed).unwrap();
     let rate = |angle: f64, speed: f64| {

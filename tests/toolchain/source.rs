@@ -244,7 +244,8 @@ fn bits(state: &[f64]) -> String {
     state.iter().map(word).collect()
 }
 
-/// What Rust computes: the status of `prepare`, rates, and the runs; nothing where a run comes to an edge of the chart, which C does not see.
+/// The results of Rust: the status of `prepare`, the rates and the runs. None where a run comes to an edge of the chart, for which the text of C
+/// has no check.
 fn computed<const N: usize>(
     system: &impl System<f64, N>,
     t: f64,

@@ -436,7 +436,8 @@ where
         if !restored.iter().all(|entry| entry.is_finite()) {
             return Err(PositionsError::NotFinite);
         }
-        // What moves nothing beyond rounding moves nothing: so the slope at the end of a step stays that of the state. In lanes, each by itself.
+        // A state that changes by rounding alone stays as it is, so that the slope at the end of a step stays its slope. Each lane is asked
+        // by itself.
         let (zero, rounding) = (R::zero(), R::from_f64(4.0 * f64::EPSILON));
         let moved = restored.iter().zip(state.iter()).fold(-R::one(), |most, (new, old)| {
             let beyond = (*new - *old).abs() - rounding * old.abs();
