@@ -3,6 +3,7 @@
 use guen::System;
 use guen::hybrid::TransitionKind;
 use guen::mechanical_system;
+use guen::steppers::Dop853;
 use nalgebra::{DMatrix, DVector};
 
 mechanical_system! {
@@ -49,6 +50,22 @@ mechanical_system! {
         contacts { sole: grip = u, friction = mu, load = reaction(table); }
         outputs { weight = reaction(table); rubs = reaction(sole); }
         scene Sliding { track u; provide rubs; }
+    }
+}
+
+mechanical_system! {
+    /// A ball between a table, which is a constraint, and an oblique wall that presses it down; it rubs along the edge.
+    pub system Edge {
+        constants { m > 0, mu, e in 0..1, alpha, g = 9.81 }
+        coordinates { x, y, z }
+        parameters { aside = dot(x); ahead = dot(y); }
+        kinetic_energy = m/2*(dot(x)^2 + dot(y)^2 + dot(z)^2);
+        potential_energy = m*g*z;
+        constraints { table: dot(z) = 0; }
+        contacts {
+            rubs: grip = aside, friction = mu, load = reaction(table);
+            wall: gap = (1 - y)*cos(alpha) - z*sin(alpha), restitution = e;
+        }
     }
 }
 
@@ -247,4 +264,62 @@ fn a_block_sticks_and_slips_by_its_weight_on_a_constraint() {
     let own = sliding.driven(push.into()).simulate(&on_table::sliding::State { u: 1.0 }, 0.0..50.0).unwrap();
     let [.., last] = own.transitions() else { panic!() };
     assert!(last.kind == TransitionKind::Sticks && (last.t - 1.0 / (0.1 * mu * g)).abs() < 1e-9, "{last:?}");
+}
+
+/// The wall presses the ball onto the table with `tan(alpha)` of the impulse that throws it back, in compression and in expansion.
+#[test]
+fn an_impact_loads_a_grip_through_the_constraint() {
+    let (m, e, alpha, g) = (0.7, 0.4, 0.5_f64, 9.81);
+    let (fast, v) = (3.0, 2.0);
+    for (mu, sticks) in [(0.2, false), (2.0, true)] {
+        let system = Edge { m, mu, e, alpha, g }.prepare().unwrap();
+        let start = edge::State { aside: fast, ahead: v, y: 0.9, ..Default::default() };
+        let motion = system.simulation(&start).tolerance(1e-12).run(0.0..0.1).unwrap();
+        let impact = motion.transitions().iter().find(|t| t.kind == TransitionKind::Impact).unwrap();
+        assert!((impact.t - 0.1 / v).abs() < 1e-12, "{}", impact.t);
+        let [.., before, _] = impact.state_before;
+        let [.., after, back] = impact.state_after;
+        assert!((before - (fast - mu * g * impact.t)).abs() < 1e-11, "{before}");
+        assert!((back + e * v).abs() < 1e-12, "{back}");
+        let braked = before - mu * (1.0 + e) * v * alpha.tan();
+        assert_eq!(braked < 0.0, sticks);
+        assert!((after - braked.max(0.0)).abs() < 1e-12, "{mu}: {after} {braked}");
+        if sticks {
+            assert_eq!(impact.after.rubs, edge::Rubs::Stick);
+            continue;
+        }
+        // The derivatives of the speed at the end, by the speeds at the start and by the place, which changes the time of the impact alone.
+        let derivatives = motion.sensitivity(&Dop853::new(1e-12, 1e-12)).unwrap();
+        let expected = [0.0, 0.0, 0.0, 1.0, -mu * (1.0 + e) * alpha.tan()];
+        for (found, expected) in derivatives[3].iter().zip(expected).filter(|(_, expected)| *expected != 0.0)
+        {
+            assert!((found - expected).abs() < 1e-9, "{derivatives:?}");
+        }
+        assert!(derivatives[3][1].abs() < 1e-9, "{derivatives:?}");
+    }
+}
+
+/// Through reversals of a bead, beside differences of runs. With the higher speed the wire's reaction passes through zero while the bead
+/// slips: the friction has a kink there, at which no step ends, and derivatives lose digits.
+#[test]
+fn derivatives_of_a_bead_are_those_of_differences() {
+    let system = Bead { m: 0.7, mu: 0.3, g: 9.81 }.prepare().unwrap();
+    let start = |angle: f64, u: f64| bead::State { x: angle.cos(), y: angle.sin(), u };
+    let run =
+        |angle: f64, u: f64| system.simulation(&start(angle, u)).tolerance(1e-13).run(0.0..1.0).unwrap();
+    for (speed, accuracy) in [(2.0, 1e-7), (4.0, 1e-5)] {
+        let motion = run(-0.6, speed);
+        assert!(motion.transitions().iter().any(|t| t.kind == TransitionKind::Reversed));
+        let matrix = motion.sensitivity(&Dop853::new(1e-13, 1e-13)).unwrap();
+        let h = 1e-5;
+        let angle_of = |state: &bead::State<f64>| state.y.atan2(state.x);
+        let [ahead, behind] = [h, -h].map(|h| run(-0.6, speed + h).end());
+        let end = motion.end();
+        // The change of the angle is that of the place across the radius.
+        let turned = end.x * matrix[1][2] - end.y * matrix[0][2];
+        let of_angle = (angle_of(&ahead) - angle_of(&behind)) / (2.0 * h);
+        assert!((turned - of_angle).abs() < accuracy, "{speed}: {turned} {of_angle}");
+        let of_speed = (ahead.u - behind.u) / (2.0 * h);
+        assert!((matrix[2][2] - of_speed).abs() < accuracy, "{speed}: {} {of_speed}", matrix[2][2]);
+    }
 }
