@@ -56,10 +56,10 @@ mechanical_system! {
 mechanical_system! {
     /// A ball between a table, which is a constraint, and an oblique wall that presses it down; it rubs along the edge.
     pub system Edge {
-        constants { m > 0, mu, e in 0..1, alpha, g = 9.81 }
+        constants { m > 0, k, mu, e in 0..1, alpha, g = 9.81 }
         coordinates { x, y, z }
         parameters { aside = dot(x); ahead = dot(y); }
-        kinetic_energy = m/2*(dot(x)^2 + dot(y)^2 + dot(z)^2);
+        kinetic_energy = m/2*(dot(x)^2 + dot(y)^2 + dot(z)^2) + k*dot(x)*dot(y);
         potential_energy = m*g*z;
         constraints { table: dot(z) = 0; }
         contacts {
@@ -272,7 +272,7 @@ fn an_impact_loads_a_grip_through_the_constraint() {
     let (m, e, alpha, g) = (0.7, 0.4, 0.5_f64, 9.81);
     let (fast, v) = (3.0, 2.0);
     for (mu, sticks) in [(0.2, false), (2.0, true)] {
-        let system = Edge { m, mu, e, alpha, g }.prepare().unwrap();
+        let system = Edge { m, k: 0.0, mu, e, alpha, g }.prepare().unwrap();
         let start = edge::State { aside: fast, ahead: v, y: 0.9, ..Default::default() };
         let motion = system.simulation(&start).tolerance(1e-12).run(0.0..0.1).unwrap();
         let impact = motion.transitions().iter().find(|t| t.kind == TransitionKind::Impact).unwrap();
@@ -296,6 +296,32 @@ fn an_impact_loads_a_grip_through_the_constraint() {
             assert!((found - expected).abs() < 1e-9, "{derivatives:?}");
         }
         assert!(derivatives[3][1].abs() < 1e-9, "{derivatives:?}");
+    }
+}
+
+/// With a coupling of both speeds by the masses the friction changes the impulse of the wall, and with it the load.
+#[test]
+fn friction_and_the_impulse_that_loads_it_are_found_together() {
+    let (m, mu, e, alpha, g) = (0.7, 0.3, 0.4, 0.5_f64, 9.81);
+    for k in [-0.3, 0.25] {
+        for fast in [6.0, -6.0] {
+            let system = Edge { m, k, mu, e, alpha, g }.prepare().unwrap();
+            let start = edge::State { aside: fast, ahead: 4.0, y: 0.9, ..Default::default() };
+            let motion = system.simulation(&start).tolerance(1e-12).run(0.0..0.1).unwrap();
+            let impact = motion.transitions().iter().find(|t| t.kind == TransitionKind::Impact).unwrap();
+            let [.., before, ahead] = impact.state_before;
+            let [.., after, back] = impact.state_after;
+            // The inverse of the masses, and what an impulse of one along the wall does with its friction.
+            let (own, other) = (m / (m * m - k * k), -k / (m * m - k * k));
+            let (across, along) = (-alpha.cos(), -before.signum() * mu * alpha.sin());
+            let impulse = ahead / -(own * across + other * along);
+            let expected = before + (1.0 + e) * impulse * (own * along + other * across);
+            assert!(expected * before > 0.0, "it slips throughout");
+            assert!(
+                (back + e * ahead).abs() < 1e-12 && (after - expected).abs() < 1e-12,
+                "{after} {expected}"
+            );
+        }
     }
 }
 

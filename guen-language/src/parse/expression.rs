@@ -8,17 +8,17 @@
     reason = "the recursion passes pointers on, and what it calls opens them beside its stack"
 )]
 
-use proc_macro2::{Delimiter, Group, Literal, Span, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 
 use super::cursor::Cursor;
 use super::index::{begins_fold, fold_head, index_of};
+use super::numbers::number;
 use super::punctuation::unexpected;
 use crate::diagnostics::{Fault, Faults, Reported};
-use crate::limits::{MAX_DECIMAL_ORDER, MAX_DEPTH, MAX_DIGITS};
-use crate::names::{FOLDS, can_be_raw, is_function, is_rust_keyword};
+use crate::limits::MAX_DEPTH;
+use crate::names::{FOLDS, can_be_raw, is_rust_keyword};
 use crate::syntax::{
-    AddOperator, Expression, ExpressionKind, Factor, Fold, MultiplyOperator, Name, Number, NumberProblem,
-    Order, Range, Term,
+    AddOperator, Expression, ExpressionKind, Factor, Fold, MultiplyOperator, Name, Number, Order, Range, Term,
 };
 
 /// Expressions are nested as deep as [`MAX_DEPTH`] allows, and an unoptimised build gives every value of a function a place of its own on
@@ -578,53 +578,6 @@ fn too_deep(span: Span, faults: &mut Faults) -> Reported {
         Fault::new(span, format!("the expression is nested more than {MAX_DEPTH} levels deep"))
             .help("give parts of it names with `let`"),
     )
-}
-
-/// A number, or a missing value and the reason.
-fn number(literal: &Literal, faults: &mut Faults) -> Expression {
-    let (text, span) = (literal.to_string(), literal.span());
-    match Number::from_literal(&text) {
-        Ok(number) => Expression::new(span, ExpressionKind::Number(number)),
-        Err(problem) => {
-            faults.report(number_fault(span, &text, problem));
-            Expression::missing(span)
-        }
-    }
-}
-
-fn number_fault(span: Span, text: &str, problem: NumberProblem) -> Fault {
-    match problem {
-        NumberProblem::NotANumber => {
-            let fault = Fault::new(span, "expected a number, a name or a function");
-            if text.starts_with('\'') { fault.help("a time derivative is written `dot(x)`") } else { fault }
-        }
-        NumberProblem::NotDecimal => Fault::new(span, format!("`{text}` is not a decimal number"))
-            .help("write numbers as `16` or `1.6e1`"),
-        NumberProblem::Suffix(digits, letters) => {
-            let fault = Fault::new(span, format!("a number cannot run into the name `{letters}`"));
-            if is_type(&letters) {
-                fault.help(format_args!("numbers are exact and have no types: write `{digits}`"))
-            } else if is_function(&letters) {
-                fault.help(format_args!("a product is written with `*`: `{digits}*{letters}(..)`"))
-            } else {
-                fault.help(format_args!("a product is written with `*`: `{digits}*{letters}`"))
-            }
-        }
-        NumberProblem::OutOfRange => Fault::new(
-            span,
-            format!("numbers lie between 10^-{MAX_DECIMAL_ORDER} and 10^{MAX_DECIMAL_ORDER}, or are zero"),
-        ),
-        NumberProblem::TooManyDigits => {
-            Fault::new(span, format!("a number has at most {MAX_DIGITS} significant digits"))
-        }
-    }
-}
-
-/// Whether a suffix is a type of numbers in Rust.
-fn is_type(suffix: &str) -> bool {
-    let Some(kind) = suffix.chars().next().filter(|kind| "iuf".contains(*kind)) else { return false };
-    let size = &suffix[1..];
-    matches!(size, "8" | "16" | "32" | "64" | "128") || (kind != 'f' && size == "size")
 }
 
 /// The value's text for a message if it is short, else `x`.

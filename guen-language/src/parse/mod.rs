@@ -22,6 +22,7 @@ mod lists;
 mod modes;
 mod names;
 mod nesting;
+mod numbers;
 mod particles;
 mod punctuation;
 mod resets;

@@ -228,7 +228,8 @@ where
             -self.rate(function, t)
         })
         .after;
-        // Before the mode has settled a slip that leaves zero hardly accelerated is as small as roundings of its polynomial.
+        // Right after the beginning of a mode a slip that hardly accelerates is no larger than the roundings of the step's polynomial:
+        // a minimum there says nothing.
         if self.first && bottom - self.start <= SETTLING * self.start.abs() {
             return None;
         }

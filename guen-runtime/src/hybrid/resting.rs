@@ -199,7 +199,7 @@ where
         like: &Struck<W, C>,
     ) -> Option<(Struck<W, C>, Result<Mode<C>, Unselected<C>>)> {
         let closing = impact.closing(like)?;
-        // Bodies that a closing without flights would push on, as where contacts hold each other: their flights are real.
+        // Closing all contacts at once may add energy, as where contacts push each other open. Then their flights are not left out.
         if closing.energy > 0.0 {
             return None;
         }

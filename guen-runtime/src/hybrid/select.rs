@@ -149,8 +149,8 @@ fn candidates(kind: Kind, components: usize, known: &Known, sign: f64) -> ([Elem
 /// The part of the largest force or acceleration by which values may break the laws of a mode before they contradict it.
 const VIOLATED: f64 = 1e-6;
 
-/// Selects the mode that goes on from a time and state. Where what is small counts as zero no mode may fit, or one that the values
-/// themselves contradict, as where rows nearly depend on each other: then only roundings count as zero.
+/// Selects the mode that goes on from a time and state. Terms that are small beside what they are made of count as zero. If no mode fits then,
+/// or one that the values themselves contradict, as where rows nearly depend on each other, roundings alone count as zero.
 pub(super) fn select<H, const N: usize, const W: usize, const C: usize, const S: usize>(
     system: H,
     switches: [f64; S],
