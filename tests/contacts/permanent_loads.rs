@@ -1,7 +1,7 @@
 //! Grips that the reaction of a permanent constraint loads, beside equations with multipliers and closed forms.
 
 use guen::System;
-use guen::hybrid::TransitionKind;
+use guen::hybrid::{HybridCause, TransitionKind};
 use guen::mechanical_system;
 use guen::steppers::Dop853;
 use nalgebra::{DMatrix, DVector};
@@ -65,6 +65,24 @@ mechanical_system! {
         contacts {
             rubs: grip = aside, friction = mu, load = reaction(table);
             wall: gap = (1 - y)*cos(alpha) - z*sin(alpha), restitution = e;
+        }
+    }
+}
+
+mechanical_system! {
+    /// The ball at rest against two walls, which press it down differently.
+    pub system Corner {
+        constants { m > 0, mu, alpha, beta, g = 9.81 }
+        coordinates { x, y, z }
+        parameters { aside = dot(x); ahead = dot(y); }
+        kinetic_energy = m/2*(dot(x)^2 + dot(y)^2 + dot(z)^2);
+        potential_energy = m*g*z;
+        forces { 5 along dot(y); }
+        constraints { table: dot(z) = 0; }
+        contacts {
+            rubs: grip = aside, friction = mu, load = reaction(table);
+            left: gap = (1 - y)*cos(alpha) - z*sin(alpha);
+            right: gap = (1 - y)*cos(beta) - z*sin(beta);
         }
     }
 }
@@ -347,5 +365,62 @@ fn derivatives_of_a_bead_are_those_of_differences() {
         assert!((turned - of_angle).abs() < accuracy, "{speed}: {turned} {of_angle}");
         let of_speed = (ahead.u - behind.u) / (2.0 * h);
         assert!((matrix[2][2] - of_speed).abs() < accuracy, "{speed}: {} {of_speed}", matrix[2][2]);
+    }
+}
+
+/// The share of each wall is not determined, and with it the load of the grip.
+#[test]
+fn a_load_that_is_not_determined_ends_the_run() {
+    let start = corner::State { y: 1.0, aside: 1.0, ..Default::default() };
+    let run = |alpha: f64, beta: f64| {
+        let system = Corner { m: 0.7, mu: 0.2, alpha, beta, g: 9.81 }.prepare().unwrap();
+        system
+            .simulate(&start, 0.0..0.1)
+            .map(|motion| motion.end().aside)
+            .map_err(|failed| failed.error.cause)
+    };
+    let found = run(0.5, 0.3).unwrap_err();
+    assert!(matches!(found, HybridCause::Undetermined { .. }), "{found:?}");
+    // Walls that press alike leave one load.
+    let load = 0.7 * 9.81 + 5.0 * 0.5_f64.tan();
+    assert!((run(0.5, 0.5).unwrap() - (1.0 - 0.1 * 0.2 * load / 0.7)).abs() < 1e-9);
+}
+
+/// The friction along `x + 3 z` changes the reaction of `z` by three times itself: with a coefficient of a half there are two motions or none.
+#[test]
+fn friction_that_takes_more_of_its_load_than_there_is_ends_the_run() {
+    let run = |mu: f64, u: f64| {
+        let system = Coupled {
+            a: 1.0,
+            b: 1.0,
+            c: 1.0,
+            ab: 0.0,
+            ac: 0.0,
+            bc: 0.0,
+            l1: 0.0,
+            l2: 0.0,
+            l3: 1.0,
+            d1: 1.0,
+            d2: 0.0,
+            d3: 3.0,
+            e1: 0.0,
+            e2: 1.0,
+            e3: 0.0,
+            f1: 0.0,
+            f2: 0.0,
+            f3: 1.0,
+            mu,
+            nu: 0.0,
+        };
+        let start = coupled::State { u, ..Default::default() };
+        let motion = system.prepare().unwrap().simulate(&start, 0.0..0.01);
+        motion.map(|motion| motion.end().u).map_err(|failed| failed.error.cause)
+    };
+    for u in [1.0, -1.0] {
+        assert_eq!(run(0.5, u), Err(HybridCause::Inconsistent));
+        // f = |1 - 0.9 sign(u) f|.
+        let load = if u > 0.0 { 1.0 / 1.9 } else { 10.0 };
+        let found = run(0.3, u).unwrap();
+        assert!((found - (u - 0.01 * 0.3 * load * u)).abs() < 1e-9, "{found}");
     }
 }
