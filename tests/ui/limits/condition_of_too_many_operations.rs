@@ -1,0 +1,16 @@
+//! A condition on indices has at most 64 operations.
+//!
+//! repair: `!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!(i < 2)` => `i < 2`
+
+guen::mechanical_system! {
+    pub system Points {
+        count n = 3;
+        constants { m > 0 }
+        coordinates { x[n] }
+        parameters { for i in 0..n { v[i] = dot(x[i]); } }
+        kinetic_energy = m/2*sum(i in 0..n: v[i]^2);
+        forces { for i in 0..n { if !!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!!(i < 2) { -1 along v[i]; } } }
+    }
+}
+
+fn main() {}
