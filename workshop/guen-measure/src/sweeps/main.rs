@@ -9,7 +9,7 @@
 //! sweeps merge SYSTEM MOTIONS FOLDER                                   # all parts put together
 //! ```
 //!
-//! Ends with a nonzero status where a digest differs, or where a sweep costs much more than is aimed at.
+//! Ends with a nonzero status where a digest differs. Times are printed and judged by the reader.
 
 mod bits;
 mod cost;
