@@ -92,8 +92,8 @@ pub use study::{
     pareto_front,
 };
 pub use sweep::{
-    ColumnStatistics, Design, DesignFault, Grid, Motions, Part, PartReport, Point, Rows, Sampling,
-    Statistics, Summary, Sweep, SweepError, UnknownAxis, UnknownEntry,
+    Assignment, ColumnStatistics, Coordinator, Design, DesignFault, Grid, Motions, Part, PartReport, Point,
+    Rows, Sampling, Statistics, Summary, Sweep, SweepError, UnknownAxis, UnknownEntry, Worker,
 };
 pub use table::{Table, significant};
 #[cfg(feature = "viewer")]

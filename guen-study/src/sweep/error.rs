@@ -114,6 +114,11 @@ pub enum SweepError {
         /// The first motion of the chunk that differs.
         first: u64,
     },
+    /// A message between a coordinator and a worker cannot be used.
+    Message {
+        /// The reason.
+        reason: &'static str,
+    },
     /// The library that writes Parquet has failed.
     #[cfg(feature = "parquet")]
     Parquet {
@@ -176,6 +181,9 @@ impl fmt::Display for SweepError {
                 f,
                 "motions from {first} on have other bits than before: the closure does not make the same motion of the same point, or the machine errs"
             ),
+            Self::Message { reason } => {
+                write!(f, "a message between the coordinator and a worker cannot be used: {reason}")
+            }
             #[cfg(feature = "parquet")]
             Self::Parquet { source } => write!(f, "cannot write Parquet: {source}"),
         }

@@ -16,20 +16,28 @@ use crate::file::replace_file;
 pub(super) const MANIFEST: &str = "sweep.txt";
 /// The line of the manifest that says how many parts there are.
 const PARTS: &str = "parts: ";
-/// The name of files that locks are taken on.
+/// The names of files that locks are taken on: of the folder, and of the workers that compute chunks there for another process.
 const LOCK: &str = ".sweep.lock";
+const WORKERS: &str = ".workers.lock";
 
 /// The file of the record of a part.
 pub(super) fn record_file(part: u64, parts: u64) -> String {
     format!("part-{part}-of-{parts}.txt")
 }
 
+/// The rows of a folder.
+#[derive(Clone, Debug)]
+pub(super) struct RowsFolder {
+    path: PathBuf,
+    rows: Rows,
+}
+
 /// The folder while one process is at work on a part there.
-pub(super) struct PartFolder<'a> {
-    pub(super) path: &'a Path,
+#[derive(Debug)]
+pub(super) struct PartFolder {
+    pub(super) rows: RowsFolder,
     part: u64,
     parts: u64,
-    rows: Rows,
     /// Unlocked by the operating system when it is closed, however the process ends.
     _lock: Option<File>,
 }
@@ -37,6 +45,16 @@ pub(super) struct PartFolder<'a> {
 /// Opens a file to take a lock on.
 fn lock_file(path: &Path) -> Result<File, SweepError> {
     OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path).map_err(at(path))
+}
+
+/// Takes the lock of a file for one process alone.
+fn locked(path: &Path, busy: impl Fn() -> SweepError) -> Result<File, SweepError> {
+    let file = lock_file(path)?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => Err(busy()),
+        Err(TryLockError::Error(error)) => Err(at(path)(error)),
+    }
 }
 
 /// The number of parts that a manifest tells, if it is that of this sweep.
@@ -78,10 +96,10 @@ pub(super) fn content(path: &Path) -> Result<Option<Vec<u8>>, SweepError> {
     }
 }
 
-impl<'a> PartFolder<'a> {
+impl PartFolder {
     /// Makes the folder, if it is not there, and takes it for a part.
     pub(super) fn open(
-        path: &'a Path,
+        path: &Path,
         plan: &Plan,
         (part, parts): (u64, u64),
         rows: Rows,
@@ -107,25 +125,24 @@ impl<'a> PartFolder<'a> {
                 None => write_manifest(path, plan, parts)?,
             }
         }
+        let busy = || SweepError::Busy { path: path.to_path_buf(), part, parts };
         let lock = if locks {
             let name = path.join(format!(".part-{part}-of-{parts}.lock"));
-            let file = lock_file(&name)?;
-            match file.try_lock() {
-                Ok(()) => Some(file),
-                Err(TryLockError::WouldBlock) => {
-                    return Err(SweepError::Busy { path: path.to_path_buf(), part, parts });
-                }
-                Err(TryLockError::Error(error)) => return Err(at(&name)(error)),
-            }
+            Some(locked(&name, busy)?)
         } else {
             None
         };
-        Ok(Self { path, part, parts, rows, _lock: lock })
+        // Workers that have outlived their coordinator may still write rows.
+        let workers = path.join(WORKERS);
+        if locks && workers.exists() {
+            locked(&workers, busy)?;
+        }
+        Ok(Self { rows: RowsFolder { path: path.to_path_buf(), rows }, part, parts, _lock: lock })
     }
 
     /// The record of this part. A record that is damaged counts as none: its chunks are computed anew.
     pub(super) fn record(&self, plan: &Plan) -> Result<(Record, bool), SweepError> {
-        let path = self.path.join(record_file(self.part, self.parts));
+        let path = self.rows.path.join(record_file(self.part, self.parts));
         let Some(text) = content(&path)? else { return Ok((Record::new(plan), false)) };
         let read = std::str::from_utf8(&text).map_err(|_| "").and_then(|text| Record::parse(plan, text));
         Ok(read.map_or_else(|_| (Record::new(plan), true), |record| (record, false)))
@@ -135,8 +152,8 @@ impl<'a> PartFolder<'a> {
     pub(super) fn lost(&self, record: &Record) -> Result<Vec<u64>, SweepError> {
         let mut lost = Vec::new();
         for (number, chunk) in &record.chunks {
-            let (Some(name), Some(digest)) = (self.rows.file(*number), &chunk.file) else { continue };
-            let found = content(&self.path.join(name))?;
+            let (Some(name), Some(digest)) = (self.rows.rows.file(*number), &chunk.file) else { continue };
+            let found = content(&self.rows.path.join(name))?;
             if found.is_none_or(|found| Sha256::of(&found) != *digest) {
                 lost.push(*number);
             }
@@ -146,8 +163,35 @@ impl<'a> PartFolder<'a> {
 
     pub(super) fn write_record(&self, record: &Record, plan: &Plan) -> Result<(), SweepError> {
         let text = record.text(plan);
-        let path = self.path.join(record_file(self.part, self.parts));
+        let path = self.rows.path.join(record_file(self.part, self.parts));
         Ok(replace_file(path, |out| out.write_all(text.as_bytes()))?)
+    }
+}
+
+impl RowsFolder {
+    /// Takes a folder that a coordinator has made, for a worker: with the lock that tells that it is at work.
+    pub(super) fn of_worker(
+        path: &Path,
+        plan: &Plan,
+        rows: Rows,
+        locks: bool,
+    ) -> Result<(Self, Option<File>), SweepError> {
+        let manifest = path.join(MANIFEST);
+        let text = fs::read(&manifest).map_err(at(&manifest))?;
+        let found = parts_of(&manifest, &String::from_utf8_lossy(&text), plan)?;
+        if found != 1 {
+            return Err(SweepError::OtherParts { path: manifest, found, asked: 1 });
+        }
+        let lock = if locks {
+            let name = path.join(WORKERS);
+            let file = lock_file(&name)?;
+            // Any number of workers has it at a time.
+            file.lock_shared().map_err(at(&name))?;
+            Some(file)
+        } else {
+            None
+        };
+        Ok((Self { path: path.to_path_buf(), rows }, lock))
     }
 
     /// Writes the rows of a chunk, and returns the digest of the file. The disk is not waited for: the record has the digest, so that a

@@ -24,6 +24,7 @@ mod rows;
 mod run;
 mod scaled;
 mod sha256;
+mod shared;
 mod simulated;
 mod sketch;
 mod statistics;
@@ -40,6 +41,7 @@ pub use error::SweepError;
 pub use motions::Motions;
 pub use part::{Part, PartReport};
 pub use rows::Rows;
+pub use shared::{Assignment, Coordinator, Worker};
 pub use statistics::{ColumnStatistics, Statistics};
 pub use summary::Summary;
 
@@ -52,6 +54,7 @@ use statistics::Bins;
 ///   where an earlier run was interrupted, by a kill or a power cut as well.
 /// - [`part`](Self::part) is a part of the sweep, for another process or machine; [`merge`](Self::merge) puts parts together. The files have the bits of a run in one
 ///   part, and so have the statistics: sums are exact, and the motions themselves have the same bits everywhere.
+/// - A [`coordinator`](Self::coordinator) hands chunks out to [workers](Self::worker), where machines differ or motions take different times.
 /// - A motion that fails is a row with its cause.
 /// - Work is shared between threads chunk by chunk. Memory does not depend on the number of motions: a chunk for each thread, and the statistics.
 ///

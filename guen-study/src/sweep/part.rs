@@ -47,19 +47,26 @@ impl Part<'_, '_> {
     /// - What is wrong with the design or the columns.
     pub fn run_in(&self, folder: impl AsRef<Path>) -> Result<PartReport, SweepError> {
         let plan = Plan::of(self.sweep)?;
-        let folder = PartFolder::open(
-            folder.as_ref(),
-            &plan,
-            (self.part, self.parts),
-            self.sweep.rows,
-            self.sweep.locks,
-        )?;
-        let (record, record_was_damaged) = folder.record(&plan)?;
-        let lost = folder.lost(&record)?;
-        let (found, rewritten) = (record.chunks.len() as u64, lost.len() as u64);
-        let mut tally = Tally::new(record, lost, Some(&folder));
+        let (mut tally, mut report) = self.begin(&plan, folder.as_ref())?;
         run(&plan, self, &mut tally)?;
-        let faults = tally.record.statistics.faults();
-        Ok(PartReport { found, computed: tally.computed, rewritten, record_was_damaged, faults })
+        report.computed = tally.computed;
+        report.faults = tally.record.statistics.faults();
+        Ok(report)
+    }
+
+    /// Takes the folder, and looks at what earlier runs have finished.
+    pub(super) fn begin(&self, plan: &Plan, folder: &Path) -> Result<(Tally, PartReport), SweepError> {
+        let (rows, locks) = (self.sweep.rows, self.sweep.locks);
+        let folder = PartFolder::open(folder, plan, (self.part, self.parts), rows, locks)?;
+        let (record, record_was_damaged) = folder.record(plan)?;
+        let lost = folder.lost(&record)?;
+        let report = PartReport {
+            found: record.chunks.len() as u64,
+            computed: 0,
+            rewritten: lost.len() as u64,
+            record_was_damaged,
+            faults: record.statistics.faults(),
+        };
+        Ok((Tally::new(record, lost, Some(folder)), report))
     }
 }

@@ -20,6 +20,7 @@ const MOST: u64 = 1 << 14;
 const CHUNKS: u64 = 256;
 
 /// The plan of a run: columns, chunks and statistics.
+#[derive(Debug)]
 pub(super) struct Plan {
     pub(super) design: Design,
     /// The columns of the design, and those that are kept.
@@ -88,6 +89,12 @@ impl Plan {
     pub(super) fn motions(&self, chunk: u64) -> Range<u64> {
         let first = chunk * self.chunk;
         first..self.design.len().min(first + self.chunk)
+    }
+
+    /// The number of motions of a chunk.
+    pub(super) fn count(&self, chunk: u64) -> u64 {
+        let range = self.motions(chunk);
+        range.end - range.start
     }
 
     pub(super) fn points(&self) -> PointsAt<'_> {

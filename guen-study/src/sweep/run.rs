@@ -4,9 +4,11 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use super::Sweep;
 use super::block::Block;
+use super::design::PointsAt;
 use super::error::SweepError;
-use super::folder::PartFolder;
+use super::folder::{PartFolder, RowsFolder};
 use super::part::Part;
 use super::plan::Plan;
 use super::record::{Chunk, Record};
@@ -20,9 +22,10 @@ const PAUSE: Duration = Duration::from_secs(2);
 const WRITES: u32 = 50;
 
 /// All that threads have done so far.
-pub(super) struct Tally<'a> {
+#[derive(Debug)]
+pub(super) struct Tally {
     pub(super) record: Record,
-    pub(super) folder: Option<&'a PartFolder<'a>>,
+    pub(super) folder: Option<PartFolder>,
     /// Chunks that are in the record but whose files have to be written anew.
     pub(super) lost: Vec<u64>,
     /// Chunks that this run has computed.
@@ -32,13 +35,13 @@ pub(super) struct Tally<'a> {
     failed: Option<SweepError>,
 }
 
-impl<'a> Tally<'a> {
-    pub(super) fn new(record: Record, lost: Vec<u64>, folder: Option<&'a PartFolder<'a>>) -> Self {
+impl Tally {
+    pub(super) fn new(record: Record, lost: Vec<u64>, folder: Option<PartFolder>) -> Self {
         Self { record, folder, lost, computed: 0, written: Instant::now(), pause: PAUSE, failed: None }
     }
 
     /// Counts a chunk, and writes the record if it is time to.
-    fn add(
+    pub(super) fn add(
         &mut self,
         plan: &Plan,
         number: u64,
@@ -62,8 +65,8 @@ impl<'a> Tally<'a> {
         Ok(())
     }
 
-    fn write(&mut self, plan: &Plan) -> Result<(), SweepError> {
-        if let Some(folder) = self.folder {
+    pub(super) fn write(&mut self, plan: &Plan) -> Result<(), SweepError> {
+        if let Some(folder) = &self.folder {
             let start = Instant::now();
             folder.write_record(&self.record, plan)?;
             self.pause = PAUSE.max(start.elapsed() * WRITES);
@@ -73,22 +76,42 @@ impl<'a> Tally<'a> {
     }
 }
 
-/// Computes the chunks of a part that are not in the record, or whose files are lost.
-pub(super) fn run(plan: &Plan, part: &Part<'_, '_>, tally: &mut Tally<'_>) -> Result<(), SweepError> {
-    let Part { sweep, part, parts } = *part;
-    let chunks = || (part..plan.chunks()).step_by(parts as usize);
+/// The chunks of a part that are not in the record, or whose files are lost; and how far that is, in motions, with what is shown of it.
+pub(super) fn todo(plan: &Plan, part: &Part<'_, '_>, tally: &Tally) -> (Vec<u64>, u64, Progress) {
+    let chunks = || (part.part..plan.chunks()).step_by(part.parts as usize);
     let todo: Vec<u64> = chunks()
         .filter(|chunk| !tally.record.chunks.contains_key(chunk) || tally.lost.contains(chunk))
         .collect();
-    let motions = |chunk: u64| {
-        let range = plan.motions(chunk);
-        range.end - range.start
-    };
-    let total: u64 = chunks().map(motions).sum();
-    let before = total - todo.iter().copied().map(motions).sum::<u64>();
+    let total: u64 = chunks().map(|chunk| plan.count(chunk)).sum();
+    let before = total - todo.iter().map(|chunk| plan.count(*chunk)).sum::<u64>();
     let progress = Progress::new(before as f64, total as f64);
-    let progress = if sweep.progress { progress } else { progress.silent() };
-    let (lost, folder) = (std::mem::take(&mut tally.lost), tally.folder);
+    (todo, before, if part.sweep.progress { progress } else { progress.silent() })
+}
+
+/// Computes a chunk and writes its rows. Statistics of one that is counted already are empty.
+pub(super) fn compute(
+    (sweep, plan, points): (&Sweep<'_>, &Plan, &PointsAt<'_>),
+    folder: Option<&RowsFolder>,
+    chunk: u64,
+    counted: bool,
+) -> Result<(Chunk, Statistics), SweepError> {
+    let mut block = Block::new(plan.axes.len(), plan.kept.len());
+    sweep.engine.fill(points, plan.motions(chunk), sweep.lanes, &mut block);
+    let mut statistics = Statistics::new(plan.statistics.clone());
+    if !counted {
+        statistics.take(&block, plan.count(chunk));
+    }
+    let bits = block.digest();
+    let file = folder.map_or(Ok(None), |folder| folder.write_rows(plan, chunk, &block))?;
+    Ok((Chunk { bits, file }, statistics))
+}
+
+/// Computes the chunks of a part that are not in the record, or whose files are lost.
+pub(super) fn run(plan: &Plan, part: &Part<'_, '_>, tally: &mut Tally) -> Result<(), SweepError> {
+    let (todo, before, progress) = todo(plan, part, tally);
+    let sweep = part.sweep;
+    let lost = std::mem::take(&mut tally.lost);
+    let folder = tally.folder.as_ref().map(|folder| folder.rows.clone());
     let threads = sweep.threads.unwrap_or_else(processors).min(todo.len());
     let queue = Mutex::new(todo.into_iter());
     let shared = Mutex::new((tally, before, progress));
@@ -99,24 +122,14 @@ pub(super) fn run(plan: &Plan, part: &Part<'_, '_>, tally: &mut Tally<'_>) -> Re
                 break;
             }
             let Some(chunk) = locked(&queue).next() else { break };
-            let range = plan.motions(chunk);
-            let count = range.end - range.start;
-            let mut block = Block::new(plan.axes.len(), plan.kept.len());
-            sweep.engine.fill(&points, range, sweep.lanes, &mut block);
-            let mut statistics = Statistics::new(plan.statistics.clone());
-            if !lost.contains(&chunk) {
-                statistics.take(&block, count);
-            }
-            let bits = block.digest();
-            let file = folder.map_or(Ok(None), |folder| folder.write_rows(plan, chunk, &block));
-            drop(block);
+            let computed = compute((sweep, plan, &points), folder.as_ref(), chunk, lost.contains(&chunk));
             let (tally, done, progress) = &mut *locked(&shared);
-            let added = file.and_then(|file| tally.add(plan, chunk, Chunk { bits, file }, &statistics));
+            let added = computed.and_then(|(done, statistics)| tally.add(plan, chunk, done, &statistics));
             if let Err(error) = added {
                 tally.failed.get_or_insert(error);
                 break;
             }
-            *done += count;
+            *done += plan.count(chunk);
             progress.at(*done as f64);
         }
     };

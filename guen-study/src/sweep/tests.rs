@@ -6,6 +6,10 @@ use guen_runtime::{Laned, OutputMap, Real, Simulate, System, Trigger};
 
 use super::{Design, DesignFault, Rows, Sweep, SweepError};
 
+#[cfg(feature = "parquet")]
+mod parquet;
+mod shared;
+
 /// `q'' = sqrt(q^2 - 1) - k sin q`: it runs away, or fails where it comes below one.
 #[derive(Clone, Copy, Debug)]
 struct Oscillator<R>(R);
@@ -308,17 +312,18 @@ impl<const DIGEST: u64> Simulate<f64, 2> for Declared<DIGEST> {
     const DECLARATION: u64 = DIGEST;
 }
 
+fn declared<'a, const DIGEST: u64>() -> Sweep<'a> {
+    Sweep::over(design(60), |point| {
+        let (system, start) = member(point.get("k")?, point.get("q")?);
+        Ok((Declared::<DIGEST>(system), start))
+    })
+    .simulations([("q", "rad")], |simulation| simulation.run(0.0..1.0).map(|motion| [motion.end()[0]]))
+    .with_chunk(20)
+    .silent()
+}
+
 #[test]
 fn a_folder_of_another_declaration_is_refused_and_stays() {
-    fn declared<'a, const DIGEST: u64>() -> Sweep<'a> {
-        Sweep::over(design(60), |point| {
-            let (system, start) = member(point.get("k")?, point.get("q")?);
-            Ok((Declared::<DIGEST>(system), start))
-        })
-        .simulations([("q", "rad")], |simulation| simulation.run(0.0..1.0).map(|motion| [motion.end()[0]]))
-        .with_chunk(20)
-        .silent()
-    }
     let folder = Folder::new("declaration");
     declared::<0x2a>().part(0, 2).unwrap().run_in(&folder.0).unwrap();
     let expected = files(&folder.0);
