@@ -100,9 +100,10 @@ pub use system::frame::Frame;
 pub use system::frame::{Commutator, Displacement};
 #[doc(hidden)]
 pub use system::hints::{Undriven, Unprepared};
+pub use system::input_law::{InputLaw, InputRecords, SmoothLaw};
 #[cfg(feature = "alloc")]
-pub use system::input_law::InputSamples;
-pub use system::input_law::{InputLaw, InputRecords, InputValues, SmoothLaw};
+pub use system::input_values::InputSamples;
+pub use system::input_values::InputValues;
 pub use system::invariants::Invariants;
 pub use system::level::{Level, LevelInfo, Levels};
 pub use system::linearization::{

@@ -66,7 +66,7 @@ fn structure(
 
 /// The fields of the struct.
 fn fields_of(model: &Model<'_>, supplied: &Supplied) -> Fields {
-    Fields::of_constants(model.constants.iter().map(|constant| constant.name), supplied)
+    supplied.behind(model.constants.iter().map(|constant| constant.name))
 }
 
 /// The types of values.

@@ -68,7 +68,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
     let fields = fields(subject, layout);
     let real = format_ident!("{}", if system == declared { REAL } else { "Scalar" });
     let supplied = &layout.supplied;
-    let structure = Fields::of_constants(fields.iter().map(|field| &field.written), supplied).over(&real);
+    let structure = supplied.behind(fields.iter().map(|field| &field.written)).over(&real);
     let declared_fields: Vec<TokenStream> = structure
         .trees()
         .map(|(ident, tree)| {
@@ -188,12 +188,12 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
 pub(super) fn parts(subject: &Subject<'_, '_>, layout: &Layout, modules: &mut Modules) {
     let model = subject.model;
     let names = model.constants.iter().map(|constant| constant.name);
-    let whole = Fields::of_constants(names, &layout.supplied);
+    let whole = layout.supplied.behind(names);
     if layout.is_whole {
         return parts::add_constants(modules, &whole);
     }
     let fields = fields(subject, layout);
-    let structure = Fields::of_constants(fields.iter().map(|field| &field.written), &layout.supplied);
+    let structure = layout.supplied.behind(fields.iter().map(|field| &field.written));
     let docs = |tree: &Tree| match tree.instance() {
         Some(part) => parts::docs_of_instance(&model.declaration.instances, part),
         None => tree.first().map_or_else(TokenStream::new, |first| match structure.function(first) {

@@ -8,7 +8,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::supplied::Supplied;
 use crate::syntax::{Name, Step};
 
 /// The fields of a struct whose values are a flat list.
@@ -104,13 +103,9 @@ impl Fields {
         Fields { fields, names, accesses, functions: 0 }
     }
 
-    /// The fields of a struct of constants, with the functions that the program supplies behind them.
-    pub(super) fn of_constants<'a>(
-        names: impl IntoIterator<Item = &'a Name>,
-        supplied: &'a Supplied,
-    ) -> Self {
-        let mut fields = Fields::new(names.into_iter().chain(supplied.names())).of_record("Constants");
-        let kinds = supplied.kinds();
+    /// The fields of a struct of constants; the last ones are functions that the program supplies, of these kinds.
+    pub(super) fn of_constants<'a>(names: impl IntoIterator<Item = &'a Name>, kinds: &[Ident]) -> Self {
+        let mut fields = Fields::new(names).of_record("Constants");
         let first = fields.len() - kinds.len();
         fields.functions = kinds.len();
         if !kinds.is_empty() {

@@ -7,8 +7,8 @@ use proc_macro2::TokenStream;
 
 use super::code::{Loads, SUPPLIED, body};
 use super::layout::Layout;
-use super::rolled::indexed;
 use super::text::tokens;
+use super::unpacked::indexed;
 use crate::derive::{Level, Subject, function};
 
 /// The places of the values of symbols, in the arrays that a function takes.

@@ -95,9 +95,9 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let held: Vec<Name> = selection.held.iter().map(|held| variable_name(model, held.place)).collect();
     let given = selection.constants.iter().map(|c| model.constants[*c].name);
     // The structs of the constants and of the state, here and in the system.
-    let own_fields = Fields::of_constants(given.chain(&held), &layout.supplied);
+    let own_fields = layout.supplied.behind(given.chain(&held));
     let whole_names = model.constants.iter().map(|constant| constant.name);
-    let whole_fields = Fields::of_constants(whole_names, &layout.supplied).of_outer();
+    let whole_fields = layout.supplied.behind(whole_names).of_outer();
     let (_, full) = whole_model.sizes();
     let names = (0..full).map(|place| variable_name(whole_model, place));
     let whole_state = Fields::new(&names.collect::<Vec<Name>>());

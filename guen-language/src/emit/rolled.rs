@@ -5,6 +5,7 @@ use std::fmt::Write;
 use guen_symbolic::{Instruction, Loop, Operand, Operation, Rolled, RolledStep, Value};
 
 use super::code::{Loads, apply, call, number};
+use super::unpacked::indexed;
 
 /// The body of a function: its statements, then its results as an array. Arrays of intermediate values are called `a0`, `a1`, .., values outside of loops
 /// `v0`, `v1`, .., those of a turn `e0`, `e1`, .., and the results `o`.
@@ -84,12 +85,6 @@ pub(super) fn body(
     }
     text.push('o');
     text
-}
-
-/// The array and the index of an element as it is written.
-pub(super) fn indexed(name: &str) -> Option<(&str, usize)> {
-    let (array, index) = name.strip_suffix(']')?.split_once('[')?;
-    Some((array, index.parse().ok()?))
 }
 
 /// Whether a name is that of an element so far behind another one.

@@ -155,6 +155,11 @@ impl Supplied {
         self.functions.iter().map(|function| self.kinds[function.kind].parameter.clone()).collect()
     }
 
+    /// The fields of a struct of constants, with these functions behind them.
+    pub(super) fn behind<'a>(&'a self, constants: impl IntoIterator<Item = &'a Name>) -> Fields {
+        Fields::of_constants(constants.into_iter().chain(self.names()), &self.kinds())
+    }
+
     /// The documentation of the field of a function.
     pub(super) fn docs(&self, function: usize) -> &TokenStream {
         &self.functions[function].docs

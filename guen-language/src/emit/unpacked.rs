@@ -7,8 +7,6 @@
 use std::fmt::Write;
 use std::ops::Range;
 
-use super::rolled::indexed;
-
 /// The arrays that a body takes apart, with flags of the elements that it needs.
 pub(super) struct Unpacked {
     arrays: Vec<(String, Vec<bool>)>,
@@ -112,4 +110,10 @@ mod tests {
         assert_eq!(statements, "");
         assert_eq!(locals, ["c[0]", "c[9]", "c[19]"]);
     }
+}
+
+/// The array and the index of an element as it is written.
+pub(super) fn indexed(name: &str) -> Option<(&str, usize)> {
+    let (array, index) = name.strip_suffix(']')?.split_once('[')?;
+    Some((array, index.parse().ok()?))
 }

@@ -1,12 +1,11 @@
 //! Contacts in outputs: `gap(name)`, `slip(name)` and `reaction(name)`.
 
-use guen_symbolic::ExprId;
 use proc_macro2::Span;
 
 use super::evaluate::{Evaluated, Evaluator};
 use super::place::Place;
 use super::scope::Category;
-use super::value::Value;
+use super::value::{ContactValue, Value};
 use crate::diagnostics::Fault;
 use crate::names::{nearest, quoted};
 use crate::syntax::{Expression, ExpressionKind, Name};
@@ -14,21 +13,6 @@ use crate::syntax::{Expression, ExpressionKind, Name};
 /// The words that are functions of contacts in outputs, and names like any other elsewhere.
 const GAP: &str = "gap";
 const SLIP: &str = "slip";
-
-/// A contact as outputs see it.
-#[derive(Clone)]
-pub(super) struct ContactValue {
-    /// The gap, or the function of a latch; none for a grip.
-    pub(super) gap: Option<ExprId>,
-    /// The velocity along it; none without friction.
-    pub(super) slip: Option<Value>,
-    /// The force: a scalar of a smooth contact, a latch or a grip along a line; else the components along the gap and the slip.
-    pub(super) reaction: Value,
-    /// The forms of its rows, where they are constraints; the reaction has them in the place of the forces.
-    pub(super) is_held: bool,
-    /// Whether it is a contact without friction.
-    pub(super) is_smooth: bool,
-}
 
 impl Evaluator<'_> {
     /// Whether a call asks for something of a contact.

@@ -6,13 +6,12 @@ use guen_symbolic::{ExprId, Flow, Node, PowerError, Rational, Role, Roles, Verdi
 use proc_macro2::Span;
 
 use super::assumed_rates::AssumedRates;
-use super::contact_values::ContactValue;
 use super::declared_functions::DeclaredFunctions;
 use super::motion_symbols::MotionSymbols;
 use super::place::{Place, ROLES, role_name};
 use super::scope::{Category, Scope};
 use super::shapes::Shapes;
-use super::value::{Value, Vector};
+use super::value::{ContactValue, Value, Vector};
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_EXPONENT, MAX_FACTORS, MAX_NUMBER_BITS, MAX_TOTAL_DEPTH};
 use crate::syntax::{AddOperator, Expression, ExpressionKind, MultiplyOperator, Name};

@@ -82,3 +82,18 @@ impl Value {
         }
     }
 }
+
+/// A contact as outputs see it.
+#[derive(Clone)]
+pub(super) struct ContactValue {
+    /// The gap, or the function of a latch; none for a grip.
+    pub(super) gap: Option<ExprId>,
+    /// The velocity along it; none without friction.
+    pub(super) slip: Option<Value>,
+    /// The force: a scalar of a smooth contact, a latch or a grip along a line; else the components along the gap and the slip.
+    pub(super) reaction: Value,
+    /// The forms of its rows, where they are constraints; the reaction has them in the place of the forces.
+    pub(super) is_held: bool,
+    /// Whether it is a contact without friction.
+    pub(super) is_smooth: bool,
+}

@@ -2,17 +2,11 @@
 
 use core::ops::ControlFlow;
 
-use crate::hybrid::error::{HybridCause, HybridError};
 use crate::hybrid::held::{Controller, Sampler};
 use crate::hybrid::in_mode::InMode;
-use crate::hybrid::mode::Mode;
-use crate::hybrid::resting::Resting;
-use crate::hybrid::run::{Pair, Run, Witness};
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::transition::Transition;
-use crate::hybrid::turn::Place;
-use crate::hybrid::watched::Sides;
-use crate::steppers::{Cause, Guard, Method, Setting, Statistics};
+use crate::steppers::{Guard, Statistics};
 
 /// Is shown each sample: its position, time, state and mode.
 type Visitor<'a, M, const N: usize> = &'a mut dyn FnMut(usize, f64, &[f64; N], &M);
@@ -152,76 +146,4 @@ where
     pub fn guard(self, guard: Guard) -> Self {
         Self { guard, ..self }
     }
-
-    /// Runs to a time, which is not before the start.
-    ///
-    /// # Errors
-    ///
-    /// What kept the run from going on, with the last time, state and mode that were in order.
-    pub fn run<M>(self, method: &M, end: f64) -> Result<HybridResult<H::Mode, N>, HybridError<N, C>>
-    where
-        M: Method<f64, InMode<H, N, W, C, S>, N>,
-    {
-        self.witnessed(method, end, &mut |_, _, _| Ok(()))
-    }
-
-    /// Runs to a time, and tells a witness of every mode that begins.
-    pub(super) fn witnessed<M>(
-        self,
-        method: &M,
-        end: f64,
-        witness: Witness<'_, H, N, W, C, S>,
-    ) -> Result<HybridResult<H::Mode, N>, HybridError<N, C>>
-    where
-        M: Method<f64, InMode<H, N, W, C, S>, N>,
-    {
-        let mode = Mode::free(&H::ELEMENTS);
-        let fail = |cause| HybridError {
-            t: self.t,
-            mode,
-            state: self.state,
-            cause: HybridCause::Integration(cause),
-            work: Statistics::default(),
-        };
-        if !self.t.is_finite() || !end.is_finite() {
-            return Err(fail(Cause::Setting(Setting::Time)));
-        }
-        if end < self.t {
-            return Err(fail(Cause::Setting(Setting::Backwards)));
-        }
-        let inputs = self.inputs.iter().map(|(time, _)| *time);
-        if !in_order(self.t, self.samples.iter().copied()) || !in_order(self.t, inputs) {
-            return Err(fail(Cause::Setting(Setting::Samples)));
-        }
-        if let Some(sampler) = &self.sampler {
-            sampler.check((self.t, end)).map_err(fail)?;
-        }
-        if !self.state.iter().all(|entry| entry.is_finite()) {
-            return Err(fail(Cause::NotFinite));
-        }
-        let state = self.system.onto_constraints(self.t, &self.state);
-        let state = state.map_err(|error| fail(Cause::of_positions(error)))?;
-        let in_mode = InMode::new(self.system.clone(), mode, self.t, &state);
-        let signals = in_mode.switches.map(|value| 2.0 * value - 1.0);
-        let sides = Sides { latches: [1.0; C], signals, slow: [0.0; C] };
-        let place = Place { t: self.t, state, in_mode, sides, begins: true };
-        let resting = Resting::new(self.resting_accuracy);
-        let run = Run {
-            place,
-            resting,
-            hybrid: self,
-            visited: 0,
-            switched: 0,
-            transitions: 0,
-            work: Statistics::default(),
-            step: None,
-            pair: Pair { modes: [mode; 2], count: 0, since: 0.0 },
-        };
-        run.to(method, end, witness)
-    }
-}
-
-/// Whether times follow each other from a first one on.
-fn in_order(first: f64, mut times: impl Iterator<Item = f64>) -> bool {
-    times.try_fold(first, |last, time| (time >= last && time.is_finite()).then_some(time)).is_some()
 }

@@ -4,11 +4,11 @@ use core::array::from_fn;
 
 use crate::hybrid::element::Kind;
 use crate::hybrid::error::HybridCause;
-use crate::hybrid::located::is_rounding;
 use crate::hybrid::mode::ElementState;
-use crate::hybrid::select::{Known, Rate, vanishes};
+use crate::hybrid::place::{Fired, Place};
+use crate::hybrid::select::{Known, Rate};
 use crate::hybrid::system::HybridSystem;
-use crate::hybrid::turn::{Fired, Place};
+use crate::hybrid::vanishing::{is_rounding, vanishes};
 use crate::numbers::running_error::RunningError;
 
 impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Place<H, N, W, C, S>

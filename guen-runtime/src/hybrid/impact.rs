@@ -3,7 +3,7 @@
 use core::array::from_fn;
 
 use crate::hybrid::element::{Element, Kind};
-use crate::hybrid::phase::{Participant, Phase, Solved, Tangential};
+use crate::hybrid::phase::{Participant, Phase, Solved, Tangential, Unsolved};
 use crate::numbers::lift::Lift;
 
 /// The impact of some elements at one state.
@@ -35,17 +35,8 @@ pub(super) struct Struck<const W: usize, const C: usize> {
     pub(super) energy: f64,
 }
 
-/// Why there is no impact.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Unsolved {
-    /// No impulses satisfy the law, or this implementation does not find them.
-    None,
-    /// Impulses with different rates satisfy it.
-    Several,
-    /// The energy grows.
-    EnergyGain(f64),
-}
-
+/// The part of the largest rate before an impact below which a rate after it vanishes.
+pub(super) const STILL: f64 = 1e-11;
 /// The gain of energy, relative to what the impulses do, that is rounding.
 const GAIN: f64 = 1e-9;
 

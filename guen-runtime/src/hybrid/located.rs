@@ -2,8 +2,8 @@
 
 use crate::hybrid::in_mode::InMode;
 use crate::hybrid::mode::ElementState;
-use crate::hybrid::select::vanishes;
 use crate::hybrid::system::HybridSystem;
+use crate::hybrid::vanishing::{is_rounding, vanishes};
 use crate::hybrid::watched::{Function, Sides, Watched};
 use crate::numbers::dual::Dual;
 use crate::numbers::running_error::RunningError;
@@ -27,8 +27,6 @@ pub(super) enum Does {
     IsBelow(f64),
 }
 
-/// The number of roundings of everything that it is made of within which a number vanishes.
-pub(super) const NOISE: f64 = 256.0;
 /// The number of times that a part is halved in search of a place at which a function is positive.
 const HALVINGS: u32 = 50;
 /// The part of a step within which a touch is the one before.
@@ -274,11 +272,6 @@ where
 /// The spacing of times at a time.
 fn spacing(t: f64) -> f64 {
     f64::EPSILON * t.abs()
-}
-
-/// Whether a number is no more than rounding.
-pub(super) fn is_rounding(number: RunningError<f64>) -> bool {
-    number.value.abs() <= NOISE * 0.5 * f64::EPSILON * number.error
 }
 
 /// The sign of a function at a time and state, zero where it is no more than rounding.

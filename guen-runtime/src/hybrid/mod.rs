@@ -91,6 +91,7 @@ mod mode;
 mod mode_info;
 mod phase;
 mod pivots;
+mod place;
 mod polished;
 mod redundant;
 mod resets;
@@ -112,6 +113,7 @@ mod turn;
 mod turning;
 #[cfg(feature = "alloc")]
 mod unheld;
+mod vanishing;
 mod watched;
 
 pub use by_law::{ActuatedModes, ByLaw};

@@ -4,9 +4,19 @@ use core::array::from_fn;
 use core::f64::consts::TAU;
 
 use crate::hybrid::element::Element;
-use crate::hybrid::impact::Unsolved;
 use crate::hybrid::loads;
 use crate::numbers::real::Real;
+
+/// Why there is no impact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Unsolved {
+    /// No impulses satisfy the law, or this implementation does not find them.
+    None,
+    /// Impulses with different rates satisfy it.
+    Several,
+    /// The energy grows.
+    EnergyGain(f64),
+}
 
 /// The part of an element in a phase.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,9 +2,9 @@
 
 use crate::hybrid::in_mode::InMode;
 use crate::hybrid::located::{Does, Found};
+use crate::hybrid::place::{Fired, Place};
 use crate::hybrid::run::Run;
 use crate::hybrid::system::HybridSystem;
-use crate::hybrid::turn::{Fired, Place};
 use crate::hybrid::watched::Function;
 use crate::steppers::{Checkpoint, Method, Statistics, StepperRun};
 

@@ -1,8 +1,8 @@
 //! Resets: new values for variables, all from the state before.
 
 use crate::hybrid::error::HybridCause;
+use crate::hybrid::place::{Fired, Place};
 use crate::hybrid::system::HybridSystem;
-use crate::hybrid::turn::{Fired, Place};
 
 /// The part of the largest coordinate by which a reset may miss the constraints on positions: its formula is rounded.
 const MISSED: f64 = 1e-9;

@@ -5,19 +5,20 @@ use crate::hybrid::error::{HybridCause, HybridError};
 use crate::hybrid::in_mode::InMode;
 use crate::hybrid::located::{Does, Found, Step};
 use crate::hybrid::mode::Mode;
+use crate::hybrid::place::{Fired, Place};
 use crate::hybrid::resting::Resting;
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::transition::{Facts, Transition, TransitionKind};
-use crate::hybrid::turn::{Fired, Place};
+use crate::hybrid::watched::Sides;
 use crate::steppers::guard::part::{Failed, PartWatch};
-use crate::steppers::{Cause, Checkpoint, Interpolant, Method, Statistics, StepperRun};
+use crate::steppers::{Cause, Checkpoint, Interpolant, Method, Setting, Statistics, StepperRun};
 
 /// Transitions between the same two modes, one after the other.
 #[derive(Clone, Copy)]
-pub(super) struct Pair<const C: usize> {
-    pub(super) modes: [Mode<C>; 2],
-    pub(super) count: u32,
-    pub(super) since: f64,
+struct Pair<const C: usize> {
+    modes: [Mode<C>; 2],
+    count: u32,
+    since: f64,
 }
 
 /// A run on its way.
@@ -34,12 +35,89 @@ where
     pub(super) work: Statistics,
     /// The size of the last step.
     pub(super) step: Option<f64>,
-    pub(super) pair: Pair<C>,
+    pair: Pair<C>,
 }
 
 /// Is told of every mode that begins, with its time and state.
 pub(super) type Witness<'a, H, const N: usize, const W: usize, const C: usize, const S: usize> =
     &'a mut dyn FnMut(f64, &[f64; N], &InMode<H, N, W, C, S>) -> Result<(), Cause>;
+
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Hybrid<'_, H, N, W, C, S>
+where
+    H: HybridSystem<N, W, C, S> + Clone,
+{
+    /// Runs to a time, which is not before the start.
+    ///
+    /// # Errors
+    ///
+    /// What kept the run from going on, with the last time, state and mode that were in order.
+    pub fn run<M>(self, method: &M, end: f64) -> Result<HybridResult<H::Mode, N>, HybridError<N, C>>
+    where
+        M: Method<f64, InMode<H, N, W, C, S>, N>,
+    {
+        self.witnessed(method, end, &mut |_, _, _| Ok(()))
+    }
+
+    /// Runs to a time, and tells a witness of every mode that begins.
+    pub(super) fn witnessed<M>(
+        self,
+        method: &M,
+        end: f64,
+        witness: Witness<'_, H, N, W, C, S>,
+    ) -> Result<HybridResult<H::Mode, N>, HybridError<N, C>>
+    where
+        M: Method<f64, InMode<H, N, W, C, S>, N>,
+    {
+        let mode = Mode::free(&H::ELEMENTS);
+        let fail = |cause| HybridError {
+            t: self.t,
+            mode,
+            state: self.state,
+            cause: HybridCause::Integration(cause),
+            work: Statistics::default(),
+        };
+        if !self.t.is_finite() || !end.is_finite() {
+            return Err(fail(Cause::Setting(Setting::Time)));
+        }
+        if end < self.t {
+            return Err(fail(Cause::Setting(Setting::Backwards)));
+        }
+        let inputs = self.inputs.iter().map(|(time, _)| *time);
+        if !in_order(self.t, self.samples.iter().copied()) || !in_order(self.t, inputs) {
+            return Err(fail(Cause::Setting(Setting::Samples)));
+        }
+        if let Some(sampler) = &self.sampler {
+            sampler.check((self.t, end)).map_err(fail)?;
+        }
+        if !self.state.iter().all(|entry| entry.is_finite()) {
+            return Err(fail(Cause::NotFinite));
+        }
+        let state = self.system.onto_constraints(self.t, &self.state);
+        let state = state.map_err(|error| fail(Cause::of_positions(error)))?;
+        let in_mode = InMode::new(self.system.clone(), mode, self.t, &state);
+        let signals = in_mode.switches.map(|value| 2.0 * value - 1.0);
+        let sides = Sides { latches: [1.0; C], signals, slow: [0.0; C] };
+        let place = Place { t: self.t, state, in_mode, sides, begins: true };
+        let resting = Resting::new(self.resting_accuracy);
+        let run = Run {
+            place,
+            resting,
+            hybrid: self,
+            visited: 0,
+            switched: 0,
+            transitions: 0,
+            work: Statistics::default(),
+            step: None,
+            pair: Pair { modes: [mode; 2], count: 0, since: 0.0 },
+        };
+        run.to(method, end, witness)
+    }
+}
+
+/// Whether times follow each other from a first one on.
+fn in_order(first: f64, mut times: impl Iterator<Item = f64>) -> bool {
+    times.try_fold(first, |last, time| (time >= last && time.is_finite()).then_some(time)).is_some()
+}
 
 /// The end of a part of a run.
 enum Part<const C: usize, const S: usize> {

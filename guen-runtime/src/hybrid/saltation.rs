@@ -5,10 +5,10 @@ use core::error::Error;
 use core::fmt;
 
 use crate::hybrid::in_mode::{InMode, motion_series};
-use crate::hybrid::select::vanishes;
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::transition::{Facts, Transition, TransitionKind};
 use crate::hybrid::turning::Along;
+use crate::hybrid::vanishing::vanishes;
 use crate::hybrid::watched::{Function, Sides};
 use crate::numbers::dual::Dual;
 use crate::numbers::power_series::PowerSeries;

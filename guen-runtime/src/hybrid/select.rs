@@ -6,9 +6,9 @@ use core::array::from_fn;
 use crate::hybrid::element::Kind;
 use crate::hybrid::error::HybridCause;
 use crate::hybrid::in_mode::{InMode, Leaning, motion_series};
-use crate::hybrid::located::NOISE;
 use crate::hybrid::mode::{ElementState, Mode};
 use crate::hybrid::system::HybridSystem;
+use crate::hybrid::vanishing::{ROUNDING, VANISHING, vanishes, vanishes_within};
 use crate::numbers::power_series::PowerSeries;
 use crate::numbers::running_error::RunningError;
 
@@ -71,10 +71,6 @@ impl<const C: usize> From<Unselected<C>> for HybridCause<C> {
 
 /// The order to which inequalities are expanded.
 const HIGHEST: usize = 5;
-/// The part of what a derivative is made of below which it vanishes: what integration and location leave of a zero.
-const VANISHING: f64 = 1e-9;
-/// Below this part of it a derivative vanishes where values are taken as they are: what roundings leave of a zero.
-const ROUNDING: f64 = NOISE * 0.5 * f64::EPSILON;
 /// Modes that are compared at one transition.
 const MAX_CANDIDATES: usize = 1 << 14;
 
@@ -87,15 +83,6 @@ pub(super) enum Sign {
     Negative,
     /// All terms vanish that are known.
     Unknown,
-}
-
-/// Whether a number vanishes up to what it is made of.
-pub(super) fn vanishes(number: RunningError<f64>) -> bool {
-    vanishes_within(number, VANISHING)
-}
-
-fn vanishes_within(number: RunningError<f64>, part: f64) -> bool {
-    number.value.abs() <= part * number.error
 }
 
 /// The sign of a function, from the term of this order on; terms vanish within a part of what they are made of.

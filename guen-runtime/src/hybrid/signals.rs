@@ -1,10 +1,11 @@
 //! The values of switches and branches where the state has jumped, and where a branch of a piecewise function begins on its zero.
 
 use crate::hybrid::element::Effect;
-use crate::hybrid::located::{NOISE, side};
+use crate::hybrid::located::side;
+use crate::hybrid::place::Place;
 use crate::hybrid::select::Sign;
 use crate::hybrid::system::HybridSystem;
-use crate::hybrid::turn::Place;
+use crate::hybrid::vanishing::ROUNDING;
 use crate::hybrid::watched::Function;
 use crate::numbers::running_error::RunningError;
 
@@ -22,7 +23,7 @@ where
         let functions = self.in_mode.system.signals(RunningError::once(self.t), &state);
         for (s, signal) in H::SIGNALS.iter().enumerate().filter(|(_, signal)| signal.is_switch()) {
             let function: RunningError<f64> = functions[s];
-            if function.value.abs() > NOISE * 0.5 * f64::EPSILON * function.error {
+            if function.value.abs() > ROUNDING * function.error {
                 self.stand(s, if function.value > 0.0 { 1.0 } else { -1.0 });
             } else if signal.effect == Effect::Branch && !crossed[s] {
                 self.stand(s, 0.0);

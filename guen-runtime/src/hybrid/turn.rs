@@ -4,79 +4,19 @@ use core::array::from_fn;
 
 use crate::hybrid::element::{Kind, Signal};
 use crate::hybrid::error::HybridCause;
-use crate::hybrid::impact::{Impact, Unsolved};
+use crate::hybrid::impact::{Impact, STILL};
 use crate::hybrid::in_mode::{InMode, Leaning, moved};
 use crate::hybrid::loads::Loads;
 use crate::hybrid::located::side;
 use crate::hybrid::mode::{ElementState, Mode};
+use crate::hybrid::phase::Unsolved;
 use crate::hybrid::pivots::Pivots;
+use crate::hybrid::place::{Fired, Place};
 use crate::hybrid::resting::Resting;
 use crate::hybrid::select::{Known, Rate, select};
 use crate::hybrid::system::{FreeMotion, HybridSystem};
 use crate::hybrid::transition::{Facts, Transition, TransitionKind};
-use crate::hybrid::watched::{Function, Sides};
-
-/// The functions that have reached zero.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Fired<const C: usize, const S: usize> {
-    pub(super) gap: [bool; C],
-    pub(super) normal: [bool; C],
-    pub(super) cone: [[bool; 2]; C],
-    pub(super) slip: [bool; C],
-    pub(super) signals: [bool; S],
-    pub(super) regularity: bool,
-    pub(super) shared: bool,
-}
-
-impl<const C: usize, const S: usize> Default for Fired<C, S> {
-    fn default() -> Self {
-        let no = [false; C];
-        Self {
-            gap: no,
-            normal: no,
-            cone: [[false; 2]; C],
-            slip: no,
-            signals: [false; S],
-            regularity: false,
-            shared: false,
-        }
-    }
-}
-
-impl<const C: usize, const S: usize> Fired<C, S> {
-    pub(super) fn add(&mut self, function: Function) {
-        match function {
-            Function::Gap(c) => self.gap[c] = true,
-            Function::Normal(c) => self.normal[c] = true,
-            Function::Cone(c, positive) => self.cone[c][usize::from(!positive)] = true,
-            Function::Slip(c) => self.slip[c] = true,
-            Function::Signal(s) => self.signals[s] = true,
-            Function::Regularity => self.regularity = true,
-            Function::Shared => self.shared = true,
-        }
-    }
-
-    /// Whether anything has fired.
-    pub(super) fn any(&self) -> bool {
-        self.elements().contains(&true) || self.signals.contains(&true) || self.regularity || self.shared
-    }
-
-    /// The elements of which a function has reached zero.
-    fn elements(&self) -> [bool; C] {
-        from_fn(|c| self.gap[c] || self.normal[c] || self.cone[c] != [false; 2] || self.slip[c])
-    }
-}
-
-/// A run between two steps: where it is and in which mode.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Place<H, const N: usize, const W: usize, const C: usize, const S: usize> {
-    pub(super) t: f64,
-    pub(super) state: [f64; N],
-    pub(super) in_mode: InMode<H, N, W, C, S>,
-    pub(super) sides: Sides<C, S>,
-    /// The states of grips and latches that a run begins with are not known yet.
-    pub(super) begins: bool,
-}
+use crate::hybrid::watched::Function;
 
 /// The next place, and the transition that led to it.
 pub(super) type Turned<H, const N: usize, const W: usize, const C: usize, const S: usize> =
@@ -415,8 +355,6 @@ struct Strike<const W: usize, const C: usize> {
     takes_part: Option<[bool; C]>,
 }
 
-/// The part of the largest rate before an impact below which a rate after it vanishes.
-pub(super) const STILL: f64 = 1e-11;
 /// The speed, relative to an acceleration and a unit of time, far below which spatial slip has the direction in which it begins.
 const LEANING: f64 = 1e-9;
 

@@ -5,7 +5,7 @@ use crate::system::System;
 use crate::system::differentiable::Differentiable;
 use crate::system::forward::forward;
 use crate::system::positions_error::PositionsError;
-use crate::system::series::TaylorSeries;
+use crate::system::series::{Coefficients, TaylorSeries};
 use crate::system::simulate::Simulate;
 
 /// A system whose states are put back onto its constraints after every step.

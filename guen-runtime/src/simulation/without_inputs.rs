@@ -5,7 +5,8 @@ use crate::simulation::Simulation;
 use crate::simulation::hold::{Hold, Sampled};
 use crate::steppers::Dop853;
 use crate::system::actuated::{Actuated, StateOf, WithInputs};
-use crate::system::input_law::{InputLaw, InputRecords, InputSamples, SmoothLaw};
+use crate::system::input_law::{InputLaw, InputRecords, SmoothLaw};
+use crate::system::input_values::InputSamples;
 use crate::system::linearization::Liftable;
 
 /// A simulation of a system with inputs that does not know them yet: [`inputs`](Self::inputs), [`law`](Self::law) or

@@ -84,7 +84,7 @@ macro_rules! forward {
             $state: &[$R; $N],
             scale: $R,
             order: usize,
-            coefficients: &mut $crate::system::series::Coefficients<$R, $N>,
+            coefficients: &mut Coefficients<$R, $N>,
         ) {
             $here.series($t, $state, scale, order, coefficients);
         }

@@ -11,6 +11,7 @@ pub(crate) mod forward;
 pub(crate) mod frame;
 pub(crate) mod hints;
 pub(crate) mod input_law;
+pub(crate) mod input_values;
 pub(crate) mod invariants;
 pub(crate) mod level;
 pub(crate) mod linearization;
@@ -20,6 +21,7 @@ pub(crate) mod positions;
 pub(crate) mod positions_error;
 pub(crate) mod series;
 pub(crate) mod simulate;
+mod with_inputs;
 pub(crate) mod with_scalar;
 
 use crate::numbers::lanes::Lanes;

@@ -8,7 +8,7 @@ use crate::numbers::real::{Ordered, Real};
 use crate::system::differentiable::Differentiable;
 use crate::system::forward::forward;
 use crate::system::positions_error::PositionsError;
-use crate::system::series::TaylorSeries;
+use crate::system::series::{Coefficients, TaylorSeries};
 use crate::system::{Monitored, System};
 
 /// A system with constraints on positions `f(t, x) = 0`: `H` of them, on `N` coordinates.

@@ -39,7 +39,7 @@ use guen_runtime::lanes::{Backend, Width};
 pub use design::{Design, DesignFault, Grid, Point, Sampling, UnknownAxis, UnknownEntry};
 pub use error::SweepError;
 pub use motions::Motions;
-pub use part::{Part, PartReport};
+pub use part::PartReport;
 pub use rows::Rows;
 pub use shared::{Assignment, Coordinator, Worker};
 pub use statistics::{ColumnStatistics, Statistics};
@@ -124,6 +124,15 @@ impl std::fmt::Debug for Sweep<'_> {
             .field("kept", &self.engine.text())
             .finish_non_exhaustive()
     }
+}
+
+/// A part of a sweep: every so many chunks of motions, for one process.
+#[derive(Clone, Copy, Debug)]
+#[must_use = "a part runs when `run_in` is called"]
+pub struct Part<'s, 'a> {
+    sweep: &'s Sweep<'a>,
+    part: u64,
+    parts: u64,
 }
 
 impl<'a> Sweep<'a> {

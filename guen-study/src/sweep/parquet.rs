@@ -14,7 +14,6 @@ use parquet::schema::types::Type;
 use super::block::Block;
 use super::error::SweepError;
 use super::plan::Plan;
-use super::rows::columns;
 
 /// The file of a block.
 pub(super) fn content(plan: &Plan, block: &Block) -> Result<Vec<u8>, SweepError> {
@@ -22,7 +21,7 @@ pub(super) fn content(plan: &Plan, block: &Block) -> Result<Vec<u8>, SweepError>
 }
 
 fn written(plan: &Plan, block: &Block) -> Result<Vec<u8>, ParquetError> {
-    let all = columns(plan);
+    let all = plan.columns();
     let kind = |place: usize| match place {
         0 => (Physical::INT64, None),
         place if place + 1 == all.len() => (Physical::BYTE_ARRAY, Some(LogicalType::String)),

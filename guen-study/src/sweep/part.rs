@@ -2,20 +2,11 @@
 
 use std::path::Path;
 
-use super::Sweep;
+use super::Part;
 use super::error::SweepError;
 use super::folder::PartFolder;
 use super::plan::Plan;
 use super::run::{Tally, run};
-
-/// A part of a sweep: every so many chunks of motions, for one process.
-#[derive(Clone, Copy, Debug)]
-#[must_use = "a part runs when `run_in` is called"]
-pub struct Part<'s, 'a> {
-    pub(super) sweep: &'s Sweep<'a>,
-    pub(super) part: u64,
-    pub(super) parts: u64,
-}
 
 /// The work of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -41,6 +41,15 @@ pub(super) struct Plan {
 }
 
 impl Plan {
+    /// The names of all columns of a row, with their units.
+    pub(super) fn columns(&self) -> Vec<Column> {
+        let fixed = |name: &str| Column::new(name, "");
+        let mut all = vec![fixed("motion")];
+        all.extend(self.axes.iter().chain(&self.kept).cloned());
+        all.extend([fixed("fault_time"), fixed("fault")]);
+        all
+    }
+
     pub(super) fn of(sweep: &Sweep<'_>) -> Result<Self, SweepError> {
         let design = sweep.design.clone().checked()?;
         let kept = sweep.engine.columns().to_vec();

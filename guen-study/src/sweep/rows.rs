@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::block::{Block, Column};
+use super::block::Block;
 use super::error::SweepError;
 use super::plan::Plan;
 use crate::cell;
@@ -49,17 +49,8 @@ impl Rows {
     }
 }
 
-/// The names of all columns of a row, with their units.
-pub(super) fn columns(plan: &Plan) -> Vec<Column> {
-    let fixed = |name: &str| Column::new(name, "");
-    let mut all = vec![fixed("motion")];
-    all.extend(plan.axes.iter().chain(&plan.kept).cloned());
-    all.extend([fixed("fault_time"), fixed("fault")]);
-    all
-}
-
 fn csv(plan: &Plan, block: &Block) -> String {
-    let names: Vec<String> = columns(plan).iter().map(|column| cell::text(&column.name)).collect();
+    let names: Vec<String> = plan.columns().iter().map(|column| cell::text(&column.name)).collect();
     let mut text = names.join(",") + "\n";
     for (row, fault) in block.faults().enumerate() {
         let _ = write!(text, "{}", block.motions[row]);

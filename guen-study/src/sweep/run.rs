@@ -4,15 +4,14 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::Sweep;
 use super::block::Block;
 use super::design::PointsAt;
 use super::error::SweepError;
 use super::folder::{PartFolder, RowsFolder};
-use super::part::Part;
 use super::plan::Plan;
 use super::record::{Chunk, Record};
 use super::statistics::Statistics;
+use super::{Part, Sweep};
 use crate::ensemble::processors;
 use crate::progress::Progress;
 

@@ -4,13 +4,13 @@
 use std::fs::File;
 use std::path::Path;
 
-use super::Sweep;
 use super::error::SweepError;
 use super::folder::RowsFolder;
-use super::part::{Part, PartReport};
+use super::part::PartReport;
 use super::plan::Plan;
 use super::record::Record;
 use super::run::{self, Tally};
+use super::{Part, Sweep};
 use crate::ensemble::processors;
 use crate::progress::Progress;
 

@@ -3,7 +3,6 @@
 use std::fmt::Write as _;
 
 use super::plan::Plan;
-use super::rows::columns;
 use super::statistics::Statistics;
 use crate::cell;
 
@@ -30,7 +29,7 @@ fn number(value: Option<f64>) -> String {
 
 fn of_columns(plan: &Plan) -> String {
     let mut text = "column,unit\n".to_owned();
-    for column in columns(plan) {
+    for column in plan.columns() {
         let _ = writeln!(text, "{},{}", cell::text(&column.name), cell::text(&column.unit));
     }
     text

@@ -2,7 +2,8 @@
 
 use guen_runtime::{Monitored, OutputMap};
 
-use super::{Link, LinkKind, Viewer, fit, is_drawable};
+use super::drawable::is_drawable;
+use super::{Link, LinkKind, Viewer, fit};
 
 impl<const N: usize> Viewer<'_, N> {
     /// Curves of all entries of the state, by their names. Entries with one unit share a panel; those without, in the order of

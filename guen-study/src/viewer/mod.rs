@@ -8,6 +8,7 @@
 mod contacts;
 mod content;
 mod data;
+mod drawable;
 mod equivalent;
 mod fit;
 mod guests;
@@ -35,10 +36,11 @@ use crate::file::replace_file;
 use crate::plot;
 use crate::recording::Recording;
 
+use drawable::is_drawable;
 use guests::Guest;
 use phases::{Mark, Words};
 use samples::Samples;
-use things::{Curve, Fault, Link, LinkKind, MovingBody, MovingPoint, Panel, is_drawable};
+use things::{Curve, Fault, Link, LinkKind, MovingBody, MovingPoint, Panel};
 use track::{Shown, Track};
 use view::{Ground, View};
 

@@ -4,11 +4,13 @@ use std::fmt::Write;
 
 use super::page::Space;
 use super::shape::{Kind, Pose, difference};
-use super::still::SIZE;
 use super::track::{Shown, Track, Turning, bounds};
 use super::turn::{Turn, norm};
 use super::{Ground, LinkKind, Shape, Viewer};
 use crate::plot;
+
+/// The size of a picture of the scene, in pixels.
+pub(super) const SIZE: [f64; 2] = [640.0, 400.0];
 
 /// Half of the angle that the picture spans from top to bottom, in radians: the page's 38 degrees.
 const HALF_ANGLE: f64 = 19.0 * std::f64::consts::PI / 180.0;

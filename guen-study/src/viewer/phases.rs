@@ -1,6 +1,7 @@
 //! Words and marks of a page: the modes of contacts over time, and their transitions.
 
-use super::{Viewer, is_drawable};
+use super::Viewer;
+use super::drawable::is_drawable;
 
 /// A moment that the page marks.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! The samples of a recording in the order of time, and the tracks that are made of them.
 
-use super::is_drawable;
+use super::drawable::is_drawable;
 use super::track::{Shown, Track};
 use crate::recording::Recording;
 

@@ -1,6 +1,6 @@
 //! Shapes of bodies, and their places.
 
-use super::is_drawable;
+use super::drawable::is_drawable;
 use super::turn::{Turn, norm};
 
 /// The place of a body at one moment and its orientation in the world's axes.

@@ -2,7 +2,7 @@
 //! the panels as plots. `outline` draws what is in the scene; the texts of a picture are its time and its names.
 
 use super::data::escaped;
-use super::outline::{self, Eye};
+use super::outline::{self, Eye, SIZE};
 use super::page::Space;
 use super::track::Track;
 use super::{Curve, Panel, Viewer};
@@ -11,9 +11,6 @@ use crate::plot::{self, Plot};
 /// The most bytes of all pictures, and the part of the largest size of the page that they may take.
 const MOST_BYTES: usize = 200_000;
 const MOST_PART: usize = 20;
-
-/// The size of a picture of the scene, in pixels.
-pub(super) const SIZE: [f64; 2] = [640.0, 400.0];
 
 /// The size of a panel, in pixels; one whose legend needs more is twice as high.
 const PANEL: [u32; 2] = [640, 260];

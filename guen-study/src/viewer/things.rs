@@ -2,7 +2,6 @@
 
 use super::shape::{Pose, Shape};
 use super::track::Track;
-use super::turn;
 
 #[derive(Clone, Debug)]
 pub(super) struct MovingBody {
@@ -76,15 +75,4 @@ pub(super) enum Fault {
         title: String,
         time: f64,
     },
-}
-
-/// Single precision and the squares of lengths have to hold it.
-pub(super) const LARGEST_COORDINATE: f64 = 1e18;
-
-pub(super) fn is_drawable(values: &[f64]) -> bool {
-    values.iter().all(|value| value.abs() <= LARGEST_COORDINATE)
-}
-
-pub(super) fn is_direction(vector: [f64; 3]) -> bool {
-    is_drawable(&vector) && turn::norm(vector) > 0.0
 }

@@ -1,6 +1,6 @@
 //! The ground of a page, and how the motion is looked at.
 
-use super::things::{is_direction, is_drawable};
+use super::drawable::{is_direction, is_drawable};
 use super::{Viewer, page};
 
 /// The ground that the bodies move on.

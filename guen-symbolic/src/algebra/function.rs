@@ -1,4 +1,4 @@
-//! The elementary functions as values.
+//! Functions as values: elementary ones, and those of several arguments.
 
 /// An elementary function of one argument.
 ///
@@ -89,4 +89,67 @@ impl Function {
     pub(crate) fn is_even(self) -> bool {
         matches!(self, Function::Cos | Function::Cosh | Function::Abs)
     }
+}
+
+/// The most arguments of a function that the program supplies.
+pub const MAX_ARGUMENTS: usize = 8;
+
+/// A function of several arguments.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Multivariate {
+    /// `atan2(y, x)`, the angle of the point `(x, y)`.
+    Atan2,
+    /// `select(c, a, b)`: `a` where `c >= 0`, and `b` elsewhere.
+    Select,
+    /// The smaller of two.
+    Minimum,
+    /// The larger of two.
+    Maximum,
+    /// A smooth function that the program supplies, or a partial derivative of it.
+    Supplied {
+        /// The number among those of the graph.
+        function: u16,
+        /// The number of times that it is differentiated by each of its arguments.
+        orders: [u8; MAX_ARGUMENTS],
+    },
+}
+
+impl Multivariate {
+    /// A number for structural hashing.
+    pub(crate) fn code(self) -> u64 {
+        match self {
+            Multivariate::Atan2 => 1,
+            Multivariate::Select => 2,
+            Multivariate::Minimum => 3,
+            Multivariate::Maximum => 4,
+            Multivariate::Supplied { function, orders } => {
+                super::id::mix(u64::from_le_bytes(orders) ^ u64::from(function) << 56) | 8
+            }
+        }
+    }
+
+    /// The name in the language; functions that the program supplies have their own.
+    pub fn name(self) -> &'static str {
+        match self {
+            Multivariate::Atan2 => "atan2",
+            Multivariate::Select => "select",
+            Multivariate::Minimum => "min",
+            Multivariate::Maximum => "max",
+            Multivariate::Supplied { .. } => "supplied",
+        }
+    }
+
+    /// Whether it is a choice between branches.
+    pub fn is_choice(self) -> bool {
+        matches!(self, Multivariate::Select | Multivariate::Minimum | Multivariate::Maximum)
+    }
+}
+
+/// A function that the program supplies.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct SuppliedFunction {
+    /// The name in the declaration.
+    pub name: String,
+    /// The names of its arguments.
+    pub arguments: Vec<String>,
 }

@@ -1,10 +1,9 @@
 //! The elementary functions: normal forms at special values, parity, and derivatives, one table each.
 
 use super::Rational;
-use super::function::Function;
+use super::function::{Function, Multivariate};
 use super::graph::Graph;
 use super::id::ExprId;
-use super::multivariate::Multivariate;
 use super::node::Node;
 use super::symbol::Bound;
 

@@ -3,9 +3,9 @@
 use std::cell::Cell;
 
 use super::base_angles::BaseAngles;
+use super::function::{Multivariate, SuppliedFunction};
 use super::id::{ExprId, SymbolId, mix};
 use super::map::{FastMap, spread};
-use super::multivariate::{Multivariate, SuppliedFunction};
 use super::node::{Node, content_of};
 use super::search::{Search, sort_ids};
 use super::symbol::{Bound, Role, Roles, Symbol};

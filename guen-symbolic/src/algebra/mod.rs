@@ -24,13 +24,12 @@ mod symbol;
 
 pub(crate) use base_angles::{AngleParts, BaseAngles};
 pub use derivative::Flow;
-pub use function::Function;
+pub use function::{Function, MAX_ARGUMENTS, Multivariate, SuppliedFunction};
 pub(crate) use gradient::gradient;
 pub use graph::Graph;
 pub(crate) use id::mix;
 pub use id::{ExprId, SymbolId};
 pub(crate) use map::{FastMap, Key, Ordinal, SortedMap, spread};
-pub use multivariate::{MAX_ARGUMENTS, Multivariate, SuppliedFunction};
 pub use node::{Node, PowerError};
 pub use rational::Rational;
 pub(crate) use search::sort_ids;

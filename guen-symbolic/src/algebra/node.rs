@@ -1,8 +1,7 @@
 //! Nodes of the graph.
 
-use super::function::Function;
+use super::function::{Function, Multivariate};
 use super::id::{ExprId, SymbolId};
-use super::multivariate::Multivariate;
 use super::rational::Rational;
 
 /// A node of the graph, in normal form.

@@ -1,10 +1,9 @@
 //! Ranges of values: which numbers an expression can be at all, from the ranges of its parts.
 
-use super::function::Function;
+use super::function::{Function, Multivariate};
 use super::graph::Graph;
 use super::id::ExprId;
 use super::map::FastMap;
-use super::multivariate::Multivariate;
 use super::node::Node;
 use super::rational::Rational;
 use super::symbol::Bound;

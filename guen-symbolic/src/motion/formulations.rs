@@ -7,7 +7,7 @@
 use super::base_parameters::InBaseParameters;
 use super::fault::{DerivationError, affordable};
 use super::large::Alone;
-use super::stated::Stated;
+use super::stated::{BODIES, Stated};
 use super::symmetry::Symmetry;
 use super::thresholds::OTHER_WAYS;
 use super::velocity_forms::VelocityPartials;
@@ -35,9 +35,6 @@ struct Formulation {
 
 /// The name of the formulation that solves the equations as they are multiplied out.
 const MULTIPLIED_OUT: &str = "multiplied out";
-
-/// The name of the formulation that goes through the bodies.
-pub(super) const BODIES: &str = "bodies";
 
 /// The names of all formulations, in the order in which they are tried: for [`Workbench::leave_out`].
 ///

@@ -5,7 +5,6 @@ use super::base_parameters::InBaseParameters;
 use super::body_axes::InBodyAxes;
 use super::equations::forms;
 use super::fault::{DerivationError, affordable};
-use super::formulations::BODIES;
 use super::graph::Turn;
 use super::large::{self, Alone};
 use super::projection::Projected;
@@ -21,6 +20,9 @@ use crate::motion::thresholds::{
 };
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
+
+/// The name of the formulation that goes through the bodies.
+pub(super) const BODIES: &str = "bodies";
 
 /// The equations of motion in all forms in which they are looked for, each with the generalised forces and proved.
 pub(super) struct Stated {

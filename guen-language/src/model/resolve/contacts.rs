@@ -13,7 +13,7 @@ use coefficients::Loading;
 use super::*;
 use crate::limits::MAX_CONTACTS;
 use crate::model::contact::{ContactEntry, ContactKind, Row, SwitchEntry};
-use crate::model::contact_values::ContactValue;
+use crate::model::value::ContactValue;
 use crate::syntax::{Clause, ClauseWord, Contact, StatesType, Switch, type_of_states};
 
 pub(super) use assembled::{assembled, modes_of_scene};

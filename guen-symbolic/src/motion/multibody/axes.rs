@@ -7,35 +7,10 @@
 use super::rotations::{
     Matrix, Shift, Vector, applied_back, further, product, rotation, rotation_by, simplified, transposed,
 };
-use super::shifts::{coordinate_axis, joint_axes, shortest, upright};
+use super::shifts::{Turned, coordinate_axis, joint_axes, shortest, upright};
 use crate::algebra::ExprId;
 use crate::motion::graph::{FrameId, SystemGraph, Turn};
 use crate::workbench::Workbench;
-
-/// The turn of axes against their parent's.
-#[derive(Clone, Debug)]
-pub(super) enum Turned {
-    /// The axes of the world.
-    World,
-    /// About a coordinate axis.
-    About {
-        /// The axis of the turn; 0 is the first.
-        axis: usize,
-        /// Cosine and sine of the angle.
-        turn: [ExprId; 2],
-        /// The angle, where it is not constant.
-        angle: Option<ExprId>,
-        /// Cosine and sine of a constant angle by which the axes are turned beyond that angle.
-        shift: Option<Shift>,
-    },
-    /// Axes turned by any rotation.
-    By {
-        /// The rotation matrix from these axes to the parent's.
-        matrix: Matrix,
-        /// The angular velocity against the parent, in these axes, linear in the velocities.
-        spin: Vector,
-    },
-}
 
 /// A set of axes.
 #[derive(Clone, Debug)]

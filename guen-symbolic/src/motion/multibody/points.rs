@@ -3,8 +3,9 @@
 //! A body is seen from the origin of its own axes, which is where the terms of its place in other axes lead. So the origin
 //! of a link is on its joint, and its body's centre and the joints that it carries are constants in its axes.
 
-use super::axes::{AllAxes, Turned, about};
+use super::axes::{AllAxes, about};
 use super::rotations::{Matrix, Shift, Vector, further};
+use super::shifts::Turned;
 use crate::algebra::{ExprId, Node};
 use crate::motion::graph::Place;
 use crate::workbench::Workbench;

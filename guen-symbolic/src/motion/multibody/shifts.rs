@@ -5,12 +5,36 @@
 //! it, the twist of the link, leads from one joint to the other. The turns about the axes of the joints themselves are added to
 //! their angles: `cos(q + a)` takes three operations, and the turn of a vector takes six.
 
-use super::axes::Turned;
 use super::rotations::{Matrix, Shift, Vector, applied_back, product, rotation, rotation_by, transposed};
 use crate::algebra::ExprId;
 use crate::motion::graph::{SystemGraph, Turn};
 use crate::workbench::Workbench;
 use crate::zero::field;
+
+/// The turn of axes against their parent's.
+#[derive(Clone, Debug)]
+pub(super) enum Turned {
+    /// The axes of the world.
+    World,
+    /// About a coordinate axis.
+    About {
+        /// The axis of the turn; 0 is the first.
+        axis: usize,
+        /// Cosine and sine of the angle.
+        turn: [ExprId; 2],
+        /// The angle, where it is not constant.
+        angle: Option<ExprId>,
+        /// Cosine and sine of a constant angle by which the axes are turned beyond that angle.
+        shift: Option<Shift>,
+    },
+    /// Axes turned by any rotation.
+    By {
+        /// The rotation matrix from these axes to the parent's.
+        matrix: Matrix,
+        /// The angular velocity against the parent, in these axes, linear in the velocities.
+        spin: Vector,
+    },
+}
 
 /// The axes of the joints that a frame carries, on frames that are turned by constants too, in the frame.
 pub(super) fn joint_axes(bench: &mut Workbench, system: &SystemGraph, index: usize) -> Vec<Vector> {

@@ -11,8 +11,8 @@
 //! and by d'Alembert's principle the inertia of a body does the work `m a.s + (I omega).F` there, beside that of its turns. Forms that
 //! speak of places have `s` as the coefficient of the parameter that belongs to `X`.
 
-use super::axes::Turned;
 use super::rotations::Matrix;
+use super::shifts::Turned;
 use super::tree::{Mat3, Seat, Tree, Turn, Vec3};
 use super::variables::{Var, Variables};
 use crate::algebra::ExprId;

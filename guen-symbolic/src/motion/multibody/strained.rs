@@ -1,8 +1,8 @@
 //! Forces on bodies that a displacement strains: see `strain`.
 
 use super::assembly::Assembly;
-use super::axes::Turned;
 use super::kinematics::Kinematics;
+use super::shifts::Turned;
 use super::strain::{NOTHING, Strain, applied, displaced, displacement, own, turn};
 use super::tree::{Seat, Vec3, cross, plus};
 use super::variables::Var;

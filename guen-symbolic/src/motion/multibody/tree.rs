@@ -1,8 +1,9 @@
 //! The tree of axes and points in numbered expressions, and what hangs on it, regrouped.
 
-use super::axes::{AllAxes, Turned};
+use super::axes::AllAxes;
 use super::points::{Point, Points, Terms};
 use super::rotations::Vector;
+use super::shifts::Turned;
 use crate::algebra::ExprId;
 use crate::motion::Mechanics;
 use crate::motion::graph::{FrameId, Place};

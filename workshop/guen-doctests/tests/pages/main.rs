@@ -4,6 +4,7 @@ mod blocks;
 mod executables;
 mod few_lines;
 mod first_lines;
+mod imports;
 mod links;
 mod manifests;
 mod operations;
