@@ -41,6 +41,15 @@ impl Block {
         Self { points: vec![Vec::new(); axes], kept: vec![Vec::new(); kept], ..Self::default() }
     }
 
+    /// Removes all rows, and keeps the memory.
+    pub(super) fn clear(&mut self) {
+        let Self { motions, points, kept, places, faults } = self;
+        motions.clear();
+        points.iter_mut().chain(kept).for_each(Vec::clear);
+        places.clear();
+        faults.clear();
+    }
+
     /// The number of rows.
     pub(super) fn len(&self) -> usize {
         self.motions.len()
@@ -94,7 +103,12 @@ impl Block {
             take(*row as u64);
             take(fault.time.map_or(u64::MAX, f64::to_bits));
             take(fault.cause.len() as u64);
-            fault.cause.bytes().for_each(|byte| take(byte.into()));
+            for bytes in fault.cause.as_bytes().chunks(8) {
+                // The length tells zeros that fill up from those that are there.
+                let mut word = [0; 8];
+                word[..bytes.len()].copy_from_slice(bytes);
+                take(u64::from_le_bytes(word));
+            }
         }
         let [first, second] = digest;
         format!("{first:016x}{second:016x}")

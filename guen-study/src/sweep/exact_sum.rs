@@ -62,6 +62,12 @@ impl Parts {
 }
 
 impl ExactSum {
+    /// Forgets all terms.
+    pub(super) fn clear(&mut self) {
+        self.digits.fill(0);
+        self.pending = 0;
+    }
+
     /// Adds a finite double.
     #[inline]
     pub(super) fn add(&mut self, x: Parts) {

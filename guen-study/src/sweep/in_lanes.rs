@@ -1,6 +1,6 @@
 //! Motions with fixed steps, several at once in lanes.
 
-use std::fmt::Debug;
+use std::fmt::{Debug, Write as _};
 use std::ops::Range;
 
 use guen_runtime::lanes::{Backend, Width};
@@ -157,7 +157,9 @@ fn fault<S: Simulate<f64, N>, const N: usize>(error: &IntegrationError<f64, N>) 
         let name = names.get(place).map(|name| format!("`{name}`"));
         (what.clone(), name.unwrap_or(what))
     };
-    let text = error.cause.to_string();
+    // Room for most of them: a text that grows is copied several times.
+    let mut text = String::with_capacity(160);
+    let _ = write!(text, "{}", error.cause);
     let cause = match error.cause {
         Cause::Step { entry, .. } => {
             let (index, name) = named(format!("entry {entry} of the state"), S::STATES, entry);

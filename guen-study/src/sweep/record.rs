@@ -24,7 +24,7 @@ pub(super) struct Record {
 }
 
 /// The first line.
-const VERSION: &str = "guen sweep part, version 1";
+const VERSION: &str = "guen sweep part, version 2";
 
 impl Record {
     pub(super) fn new(plan: &Plan) -> Self {

@@ -87,22 +87,45 @@ pub(super) fn todo(plan: &Plan, part: &Part<'_, '_>, tally: &Tally) -> (Vec<u64>
     (todo, before, if part.sweep.progress { progress } else { progress.silent() })
 }
 
-/// Computes a chunk and writes its rows. Statistics of one that is counted already are empty.
-pub(super) fn compute(
-    (sweep, plan, points): (&Sweep<'_>, &Plan, &PointsAt<'_>),
-    folder: Option<&RowsFolder>,
-    chunk: u64,
-    counted: bool,
-) -> Result<(Chunk, Statistics), SweepError> {
-    let mut block = Block::new(plan.axes.len(), plan.kept.len());
-    sweep.engine.fill(points, plan.motions(chunk), sweep.lanes, &mut block);
-    let mut statistics = Statistics::new(plan.statistics.clone());
-    if !counted {
-        statistics.take(&block, plan.count(chunk));
+/// One thread's work: chunk by chunk in the same memory.
+pub(super) struct Thread<'p, 's, 'a> {
+    sweep: &'s Sweep<'a>,
+    plan: &'p Plan,
+    points: PointsAt<'p>,
+    block: Block,
+    /// Statistics of the last chunk.
+    pub(super) statistics: Statistics,
+}
+
+impl<'p, 's, 'a> Thread<'p, 's, 'a> {
+    pub(super) fn new(sweep: &'s Sweep<'a>, plan: &'p Plan) -> Self {
+        Self {
+            sweep,
+            plan,
+            points: plan.points(),
+            block: Block::new(plan.axes.len(), plan.kept.len()),
+            statistics: Statistics::new(plan.statistics.clone()),
+        }
     }
-    let bits = block.digest();
-    let file = folder.map_or(Ok(None), |folder| folder.write_rows(plan, chunk, &block))?;
-    Ok((Chunk { bits, file }, statistics))
+
+    /// Computes a chunk and writes its rows. Statistics of one that is counted already are empty.
+    pub(super) fn compute(
+        &mut self,
+        folder: Option<&RowsFolder>,
+        chunk: u64,
+        counted: bool,
+    ) -> Result<Chunk, SweepError> {
+        let Self { sweep, plan, points, block, statistics } = self;
+        block.clear();
+        sweep.engine.fill(points, plan.motions(chunk), sweep.lanes, block);
+        statistics.clear();
+        if !counted {
+            statistics.take(block, plan.count(chunk));
+        }
+        let bits = block.digest();
+        let file = folder.map_or(Ok(None), |folder| folder.write_rows(plan, chunk, block))?;
+        Ok(Chunk { bits, file })
+    }
 }
 
 /// Computes the chunks of a part that are not in the record, or whose files are lost.
@@ -115,15 +138,15 @@ pub(super) fn run(plan: &Plan, part: &Part<'_, '_>, tally: &mut Tally) -> Result
     let queue = Mutex::new(todo.into_iter());
     let shared = Mutex::new((tally, before, progress));
     let worker = || {
-        let points = plan.points();
+        let mut thread = Thread::new(sweep, plan);
         loop {
             if locked(&shared).0.failed.is_some() {
                 break;
             }
             let Some(chunk) = locked(&queue).next() else { break };
-            let computed = compute((sweep, plan, &points), folder.as_ref(), chunk, lost.contains(&chunk));
+            let computed = thread.compute(folder.as_ref(), chunk, lost.contains(&chunk));
             let (tally, done, progress) = &mut *locked(&shared);
-            let added = computed.and_then(|(done, statistics)| tally.add(plan, chunk, done, &statistics));
+            let added = computed.and_then(|done| tally.add(plan, chunk, done, &thread.statistics));
             if let Err(error) = added {
                 tally.failed.get_or_insert(error);
                 break;

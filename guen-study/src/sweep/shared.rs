@@ -26,19 +26,17 @@ use crate::progress::Progress;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Assignment {
     chunk: u64,
-    /// Whether the statistics are in the record already, and only the file is missing.
-    counted: bool,
 }
 
 impl Assignment {
     /// A number to send.
     pub fn to_bits(self) -> u64 {
-        self.chunk << 1 | u64::from(self.counted)
+        self.chunk
     }
 
     /// The assignment of a number that was sent.
     pub fn from_bits(bits: u64) -> Self {
-        Self { chunk: bits >> 1, counted: bits & 1 == 1 }
+        Self { chunk: bits }
     }
 }
 
@@ -89,7 +87,6 @@ pub struct Coordinator {
     tally: Tally,
     report: PartReport,
     todo: std::vec::IntoIter<u64>,
-    lost: Vec<u64>,
     /// Motions that are finished.
     done: u64,
     progress: Progress,
@@ -98,8 +95,7 @@ pub struct Coordinator {
 impl Coordinator {
     /// Returns the next chunk for a worker; none when all have been handed out.
     pub fn assign(&mut self) -> Option<Assignment> {
-        let chunk = self.todo.next()?;
-        Some(Assignment { chunk, counted: self.lost.contains(&chunk) })
+        self.todo.next().map(|chunk| Assignment { chunk })
     }
 
     /// Counts what a worker has finished; and writes the record, where the last time is two seconds ago, and fifty times as long as it took.
@@ -119,8 +115,8 @@ impl Coordinator {
             return Err(refuse("the sweep has no such chunk"));
         }
         let motions = self.plan.count(chunk);
-        if !self.tally.record.chunks.contains_key(&chunk) && statistics.motions() != motions {
-            return Err(refuse("it has no statistics of a chunk that is not counted"));
+        if statistics.motions() != motions {
+            return Err(refuse("its statistics are not those of its chunk"));
         }
         self.tally.add(&self.plan, chunk, done, &statistics)?;
         self.done += motions;
@@ -157,14 +153,13 @@ impl Worker<'_, '_> {
     ///
     /// [`SweepError::Message`] if the sweep has no such chunk; [`SweepError::Io`] if its file cannot be written.
     pub fn compute(&self, assignment: Assignment) -> Result<String, SweepError> {
-        let Assignment { chunk, counted } = assignment;
+        let Assignment { chunk } = assignment;
         if chunk >= self.plan.chunks() {
             return Err(SweepError::Message { reason: "the sweep has no such chunk" });
         }
-        let points = self.plan.points();
-        let (done, statistics) =
-            run::compute((self.sweep, &self.plan, &points), Some(&self.rows), chunk, counted)?;
-        Ok(Record { chunks: [(chunk, done)].into(), statistics }.text(&self.plan))
+        let mut thread = run::Thread::new(self.sweep, &self.plan);
+        let done = thread.compute(Some(&self.rows), chunk, false)?;
+        Ok(Record { chunks: [(chunk, done)].into(), statistics: thread.statistics }.text(&self.plan))
     }
 
     /// The number of threads that the sweep asks for, or of processors that this process may use.
@@ -182,10 +177,9 @@ impl<'a> Sweep<'a> {
     pub fn coordinator(&self, folder: impl AsRef<Path>) -> Result<Coordinator, SweepError> {
         let plan = Plan::of(self)?;
         let part = Part { sweep: self, part: 0, parts: 1 };
-        let (mut tally, report) = part.begin(&plan, folder.as_ref())?;
+        let (tally, report) = part.begin(&plan, folder.as_ref())?;
         let (todo, done, progress) = run::todo(&plan, &part, &tally);
-        let lost = std::mem::take(&mut tally.lost);
-        Ok(Coordinator { plan, tally, report, todo: todo.into_iter(), lost, done, progress })
+        Ok(Coordinator { plan, tally, report, todo: todo.into_iter(), done, progress })
     }
 
     /// Joins a folder in which a [`Coordinator`] is at work, to compute chunks for it.

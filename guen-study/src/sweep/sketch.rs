@@ -44,6 +44,11 @@ pub(super) struct Sketch {
 }
 
 impl Sketch {
+    /// Forgets all numbers, and keeps the room for those that are like them.
+    pub(super) fn clear(&mut self) {
+        [&mut self.negative, &mut self.positive].into_iter().for_each(|sizes| sizes.counts.fill(0));
+    }
+
     #[inline]
     pub(super) fn add(&mut self, x: f64) {
         let key = (x.abs().to_bits() >> (52 - FRACTION)) as u32;

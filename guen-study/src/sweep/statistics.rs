@@ -106,6 +106,20 @@ impl Statistics {
         Self { plan, groups, motions: 0, faults: 0 }
     }
 
+    /// Forgets all motions, and keeps the memory: whoever takes many blocks in turn allocates once.
+    pub(super) fn clear(&mut self) {
+        for Group { complete, sums, products, columns } in &mut self.groups {
+            *complete = 0;
+            sums.iter_mut().chain(products).for_each(ExactSum::clear);
+            for OfColumn { lone, lone_sum, not_finite, ends, sketch, bins } in columns {
+                (*lone, *lone_sum, *not_finite, *ends) = (0, None, 0, None);
+                sketch.clear();
+                bins.fill(0);
+            }
+        }
+        (self.motions, self.faults) = (0, 0);
+    }
+
     /// Counts the rows of a block of so many motions.
     pub(super) fn take(&mut self, block: &Block, motions: u64) {
         let Self { plan, groups, .. } = self;

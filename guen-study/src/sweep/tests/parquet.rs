@@ -1,4 +1,4 @@
-//! What files of Parquet say beside their rows.
+//! Metadata of files of Parquet: the sweep and the declaration that they belong to.
 
 use std::collections::BTreeMap;
 use std::fs::File;

@@ -3,6 +3,8 @@
 use std::sync::Mutex;
 
 use super::*;
+use crate::sweep::plan::Plan;
+use crate::sweep::record::Record;
 use crate::{Assignment, Coordinator};
 
 /// Hands out all chunks that are left to so many workers, on threads. Returns those that were computed.
@@ -13,7 +15,7 @@ fn all(sweep: &Sweep<'_>, coordinator: Coordinator, folder: &Path, workers: usiz
         loop {
             let next = coordinator.lock().unwrap().assign();
             let Some(assignment) = next else { break };
-            assigned.lock().unwrap().push(assignment.to_bits() >> 1);
+            assigned.lock().unwrap().push(assignment.to_bits());
             let finished = worker.compute(Assignment::from_bits(assignment.to_bits())).unwrap();
             coordinator.lock().unwrap().count(&finished).unwrap();
         }
@@ -83,20 +85,24 @@ fn messages_that_cannot_be_counted_are_refused() {
     let elsewhere = folder.below("other");
     let mut other_coordinator = other.coordinator(&elsewhere).unwrap();
     let of_another = other.worker(&elsewhere).unwrap().compute(other_coordinator.assign().unwrap()).unwrap();
-    // As if its statistics were counted already.
-    let without = worker.compute(Assignment::from_bits(first.to_bits() | 1)).unwrap();
+    let plan = Plan::of(&sweep).unwrap();
+    let mut without = Record::parse(&plan, &text).unwrap();
+    without.statistics = Record::new(&plan).statistics;
+    let mut two = Record::parse(&plan, &text).unwrap();
+    two.chunks.insert(1, two.chunks[&0].clone());
     for (message, expected) in [
         (&text[..text.len() - 9], "does not fit its digest"),
         (&text.replacen("chunk 0", "chunk 1", 1), "does not fit its digest"),
         ("", "its end is missing"),
         (&of_another, "belongs to another sweep"),
-        (&without, "has no statistics"),
+        (&without.text(&plan), "are not those of its chunk"),
+        (&two.text(&plan), "not about one chunk"),
     ] {
         let error = coordinator.count(message).unwrap_err();
         assert!(matches!(error, SweepError::Message { .. }), "{error}");
         assert!(error.to_string().contains(expected), "{error}");
     }
-    let error = worker.compute(Assignment::from_bits(3 << 1)).unwrap_err();
+    let error = worker.compute(Assignment::from_bits(3)).unwrap_err();
     assert!(error.to_string().ends_with("the sweep has no such chunk"), "{error}");
     coordinator.count(&text).unwrap();
     assert_eq!(coordinator.finish().unwrap().computed, 1);
