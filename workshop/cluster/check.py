@@ -1,18 +1,22 @@
-"""Runs the recipes for clusters: a Slurm array in a simulated environment and HyperQueue, with 1, 2 and 4 parts; and reads the rows with
-pyarrow, pandas and polars.
+"""Runs the recipes for clusters: a Slurm array in a simulated environment and HyperQueue, with 1, 2 and 4 parts, and MPI with 1, 2 and 4 ranks,
+of which some are killed; and reads the rows with pyarrow, pandas and polars.
 
     python3 workshop/cluster/check.py
 
-Every way has to leave the files of a run in one part, to the bit. Needs `cargo build --release -p guen-measure --bin sweeps`. What cannot be
-installed here is left out, said so, and ends with status 77.
+Every way has to leave the files of a run in one part, to the bit. Needs `cargo build --release -p guen-measure --bin sweeps`; `check.py mpi` runs MPI
+alone, without it. What cannot be installed here is left out, said so, and ends with status 77.
 """
 
+import fcntl
 import os
 import pathlib
+import random
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import venv
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -68,6 +72,152 @@ def refuses_an_array_from_one(command, folder):
     assert done.returncode == 2 and not folder.exists(), done
 
 
+# As root, with more ranks than processors, and without the system call that containers refuse.
+OPEN_MPI = {
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    "OMPI_MCA_mpi_yield_when_idle": "1",
+    "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
+}
+MPI_MOTIONS = 1200
+# The seconds that a run to be killed takes: some records are written before its end.
+MPI_SECONDS = 6
+
+
+def mpi_program():
+    """The example of guen-mpi; none where MPI cannot be installed."""
+    installed = subprocess.run(["bash", HERE / "install_mpi"]).returncode
+    if installed == 77:
+        return None
+    assert installed == 0, "install_mpi has failed"
+    manifest = HERE.parent.parent / "guen-mpi" / "Cargo.toml"
+    run("cargo", "test", "--quiet", "--manifest-path", manifest, "--target-dir", TARGET, stdout=subprocess.DEVNULL)
+    return TARGET / "debug" / "examples" / "mpi_sweep"
+
+
+def ranks(number, *command, **settings):
+    """So many ranks of a program, started."""
+    words = [str(word) for word in ["mpirun", "-n", number, *command]]
+    pipe = subprocess.PIPE
+    return subprocess.Popen(words, env=os.environ | OPEN_MPI, text=True, stdout=pipe, stderr=pipe, **settings)
+
+
+def ended(job, seconds=300):
+    """What a job has printed, and the words of its errors; an endless one is an error."""
+    out, errors = job.communicate(timeout=seconds)
+    return job.returncode, out, errors
+
+
+def files(folder):
+    """All files but locks, with their contents."""
+    all = [path for path in sorted(folder.rglob("*")) if path.is_file() and not path.name.startswith(".")]
+    return {str(path.relative_to(folder)): path.read_bytes() for path in all}
+
+
+def recorded(folder):
+    """The files of the chunks that the record counts."""
+    record = folder / "part-0-of-1.txt"
+    lines = record.read_text().splitlines() if record.exists() else []
+    numbers = [int(line.split()[1]) for line in lines if line.startswith("chunk ")]
+    return [folder / "rows" / f"chunk-{number:08}.csv" for number in numbers]
+
+
+def finished(program, number, motions, folder, expected):
+    """Runs what is missing in a folder, and looks at all files: only what is missing may be written."""
+    before = {path: (path.stat().st_mtime_ns, path.stat().st_ino) for path in recorded(folder)}
+    status, out, errors = ended(ranks(number, program, "ranks", motions, folder))
+    assert status == 0, errors
+    chunks = len(recorded(folder))
+    report = f"found {len(before)} computed {chunks - len(before)} rewritten 0"
+    assert report in out.splitlines(), (report, out)
+    shares = [int(line.split()[4]) for line in out.splitlines() if line.startswith("rank ")]
+    assert len(shares) == number and sum(shares) == chunks - len(before), out
+    for path, stamp in before.items():
+        assert stamp == (path.stat().st_mtime_ns, path.stat().st_ino), f"{path} was written again"
+    found = files(folder)
+    assert found == expected, [name for name in found.keys() | expected if found.get(name) != expected.get(name)]
+    return len(before), chunks
+
+
+class TooQuick(Exception):
+    """A run was over before it was killed."""
+
+
+def kill(job, chosen):
+    """Kills one of the ranks, and waits until MPI has ended the others."""
+    children = pathlib.Path(f"/proc/{job.pid}/task/{job.pid}/children")
+    while job.poll() is None and not children.read_text():
+        time.sleep(0.01)
+    if job.poll() is None:
+        os.kill(int(chosen.choice(children.read_text().split())), signal.SIGKILL)
+    status, _, _ = ended(job)
+    if status == 0:
+        raise TooQuick
+
+
+def killed(program, motions, folder, number, again, expected, chosen):
+    """Kills a rank before there is a record, perhaps, and once there is one; and lets another number of ranks finish."""
+    for waits in [False, True]:
+        job = ranks(number, program, "ranks", motions, folder)
+        while waits and job.poll() is None and not recorded(folder):
+            time.sleep(0.01)
+        time.sleep(chosen.uniform(0.0, 1.0))
+        kill(job, chosen)
+    found, chunks = finished(program, again, motions, folder, expected)
+    assert 0 < found < chunks
+    print(f"of {number} ranks one killed, twice: {again} ranks found {found} chunks, computed {chunks - found}: the same files")
+
+
+def refuses_two(program, folder):
+    """A folder in which another coordinator, or a worker of one, is at work."""
+    for name, kind in [(".part-0-of-1.lock", fcntl.LOCK_EX), (".workers.lock", fcntl.LOCK_SH)]:
+        with open(folder / name) as lock:
+            fcntl.flock(lock, kind)
+            status, _, errors = ended(ranks(2, program, "ranks", MPI_MOTIONS, folder))
+            assert status != 0 and "another process is at work" in errors, errors
+
+
+def mpi(program, place):
+    one = place / "mpi-one"
+    start = time.monotonic()
+    run(program, "one", MPI_MOTIONS, one, stdout=subprocess.DEVNULL)
+    took = time.monotonic() - start
+    expected = files(one)
+    for number in PROCESSES:
+        finished(program, number, MPI_MOTIONS, place / f"mpi-{number}", expected)
+    print(f"MPI with {PROCESSES} ranks: the same files, to the bit")
+
+    # A chunk that cannot be written, and a closure that panics: all ranks end, and what is finished is not lost.
+    faulty = place / "mpi-faulty"
+    blocked = faulty / "rows" / "chunk-00000005.unfinished"
+    blocked.mkdir(parents=True)
+    status, _, errors = ended(ranks(3, program, "ranks", MPI_MOTIONS, faulty))
+    assert status != 0 and "chunk-00000005.csv" in errors and "has ended the run" in errors, errors
+    blocked.rmdir()
+    status, _, errors = ended(ranks(3, program, "panics", MPI_MOTIONS, faulty))
+    assert status != 0 and "the last motion panics" in errors, errors
+    found, chunks = finished(program, 2, MPI_MOTIONS, faulty, expected)
+    print(f"after a chunk that could not be written and a panic, {found} of {chunks} chunks were kept, and the files are the same")
+
+    refuses_two(program, faulty)
+
+    seed = time.time_ns()
+    chosen = random.Random(seed)
+    print(f"kills at instants of the seed {seed}")
+    motions = int(MPI_MOTIONS * MPI_SECONDS / took)
+    for number, again in [(4, 4), (2, 3)]:
+        while True:
+            many, folder = place / f"mpi-{motions}", place / f"mpi-{motions}-killed-{number}"
+            if not many.exists():
+                run(program, "one", motions, many, stdout=subprocess.DEVNULL)
+            try:
+                killed(program, motions, folder, number, again, files(many), chosen)
+                break
+            except TooQuick:
+                motions *= 2
+
+
 READ = """
 import pathlib, sys
 import pyarrow.parquet, pyarrow.dataset, pandas, polars
@@ -111,10 +261,29 @@ def python_with(folder, *packages):
     return python
 
 
+def over_mpi(place, left_out):
+    """The checks of MPI, where it can be had."""
+    built = mpi_program()
+    if built:
+        mpi(built, place)
+    else:
+        left_out.append("MPI")
+
+
+def told(left_out):
+    """Ends with 77 if something was left out."""
+    if left_out:
+        print("left out, for they cannot be installed here: " + "; ".join(left_out))
+        sys.exit(77)
+
+
 def main():
     left_out = []
     with tempfile.TemporaryDirectory() as place:
         place = pathlib.Path(place)
+        over_mpi(place, left_out)
+        if sys.argv[1:] == ["mpi"]:
+            return told(left_out)
         command = program(place)
         one = place / "one"
         run(command, "part", one, 0, 1, stdout=subprocess.DEVNULL)
@@ -140,9 +309,7 @@ def main():
             run(python, "-c", READ, one, MOTIONS)
         else:
             left_out.append("pyarrow, pandas, polars")
-    if left_out:
-        print("left out, for they cannot be installed here: " + "; ".join(left_out))
-        sys.exit(77)
+    told(left_out)
 
 
 if __name__ == "__main__":

@@ -25,8 +25,16 @@ const WEAK: [&str; 18] = [
 ];
 
 /// The libraries.
-const CRATES: [&str; 7] =
-    ["guen-runtime", "guen-symbolic", "guen-language", "guen-macros", "guen-study", "guen-adapters", "."];
+const CRATES: [&str; 8] = [
+    "guen-runtime",
+    "guen-symbolic",
+    "guen-language",
+    "guen-macros",
+    "guen-study",
+    "guen-adapters",
+    "guen-mpi",
+    ".",
+];
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in std::fs::read_dir(folder).unwrap() {
