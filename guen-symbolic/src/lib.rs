@@ -21,8 +21,8 @@ mod workbench;
 mod zero;
 
 pub use algebra::{
-    Bound, ExprId, Flow, Function, Graph, MAX_ARGUMENTS, Multivariate, Node, PowerError, Rational, Role,
-    Roles, Substitution, SuppliedFunction, Symbol, SymbolId,
+    Bound, ExprId, Flow, Function, Graph, MAX_ARGUMENTS, Multivariate, Node, PossibleSigns, PowerError,
+    Rational, Role, Roles, Substitution, SuppliedFunction, Symbol, SymbolId,
 };
 pub use geometry::{
     Brackets, Closure, Combination, Form, Forms, Operators, RateChoice, SingularForms, chosen_rates,

@@ -6,6 +6,7 @@
 mod equations;
 mod painleve;
 mod programs;
+mod rows;
 mod scene;
 
 use std::rc::Rc;

@@ -232,7 +232,9 @@ impl Evaluator<'_> {
         let Some(function) = self.functions.get(function) else { return false };
         let own: BTreeSet<&str> =
             function.parameters.iter().map(|parameter| parameter.text.as_str()).collect();
-        self.culprit_beside(&own, &function.value, roles).is_some()
+        let mut found = Vec::new();
+        self.culprits_beside(&own, &function.value, roles, &mut found);
+        !found.is_empty()
     }
 }
 

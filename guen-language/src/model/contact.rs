@@ -106,6 +106,8 @@ pub struct ContactEntry<'a> {
     pub gap: Option<ExprId>,
     /// The place of the gap as written.
     pub gap_span: Span,
+    /// The places of the components of the slip or the grip as written, row by row.
+    pub along_spans: Vec<Span>,
     /// The rows: that of the gap, then those of the slip.
     pub rows: Vec<Row>,
     /// The components of a slip that was written as a vector, row by row.

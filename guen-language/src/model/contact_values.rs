@@ -2,6 +2,7 @@
 
 use proc_macro2::Span;
 
+use super::accelerations::REACTION;
 use super::evaluate::{Evaluated, Evaluator};
 use super::place::Place;
 use super::scope::Category;
@@ -14,11 +15,22 @@ use crate::syntax::{Expression, ExpressionKind, Name};
 const GAP: &str = "gap";
 const SLIP: &str = "slip";
 
+/// What is no number, and asked for nevertheless.
+const MODE: &str = "mode";
+
 impl Evaluator<'_> {
     /// Whether a call asks for something of a contact.
     pub(super) fn is_of_contact(&self, function: &Name) -> bool {
         let word = function.text.as_str();
         (word == GAP || word == SLIP)
+            && self.scope.category(word).is_none()
+            && self.functions.get(word).is_none()
+    }
+
+    /// Whether the argument of a call is a name that stands for no value: `reaction(row)`, `gap(contact)`.
+    pub(super) fn takes_a_name(&self, function: &Name) -> bool {
+        let word = function.text.as_str();
+        matches!(word, GAP | SLIP | MODE | REACTION)
             && self.scope.category(word).is_none()
             && self.functions.get(word).is_none()
     }
@@ -47,7 +59,7 @@ impl Evaluator<'_> {
     pub(super) fn instead_of_contact(&self, function: &str) -> Option<&'static str> {
         let is_of_contact = self.scope.has_contacts() && self.functions.get(function).is_none();
         match function {
-            "mode" if is_of_contact => {
+            MODE if is_of_contact => {
                 Some("a mode is no number: a run tells it, and `Mode` has a field for every contact")
             }
             GAP | SLIP if is_of_contact => {

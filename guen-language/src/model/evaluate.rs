@@ -68,7 +68,13 @@ impl Evaluator<'_> {
     /// Evaluates at a place and checks that nothing occurs there that may not.
     pub(super) fn at(&mut self, place: Place, e: &Expression) -> Evaluated {
         self.place = place;
-        let value = self.value(e)?;
+        let value = match self.value(e) {
+            Ok(value) => value,
+            Err(reported) => {
+                self.check_names(place, e);
+                return Err(reported);
+            }
+        };
         self.check_depth(&value, e)?;
         let roles =
             value.expressions().iter().fold(Roles::NONE, |roles, e| roles.or(self.bench.graph.roles(*e)));
@@ -102,12 +108,43 @@ impl Evaluator<'_> {
         }
     }
 
+    /// Reports every name and call that brings in what may not occur at a place.
     fn check_allowed(&mut self, place: Place, roles: Roles, e: &Expression) -> Evaluated<()> {
         let allowed = place.allowed();
-        let Some(role) = ROLES.into_iter().find(|role| roles.has(*role) && !allowed.has(*role)) else {
-            return Ok(());
-        };
-        let (span, name) = self.culprit(e, Roles::of(role)).unwrap_or((e.extent(), None));
+        let mut result = Ok(());
+        let mut seen = BTreeSet::new();
+        for role in ROLES.into_iter().filter(|role| roles.has(*role) && !allowed.has(*role)) {
+            let mut culprits = self.culprits(e, Roles::of(role));
+            if culprits.is_empty() && seen.is_empty() {
+                culprits.push((e.extent(), None));
+            }
+            for (span, name) in culprits {
+                // A name is one mistake, however often it occurs and whatever it brings in.
+                let key = name.map_or_else(|| format!("{span:?}"), ToOwned::to_owned);
+                if seen.insert(key) {
+                    result = self.fail_not_allowed(place, role, span, name);
+                }
+            }
+        }
+        result
+    }
+
+    /// Reports the names that may not occur at a place in an expression that has no value, because of another fault.
+    fn check_names(&mut self, place: Place, e: &Expression) {
+        let allowed = place.allowed();
+        let is_refused = |role: &Role| !allowed.has(*role) && !self.culprits(e, Roles::of(*role)).is_empty();
+        let refused: Vec<Role> = ROLES.into_iter().filter(is_refused).collect();
+        let roles = refused.into_iter().fold(Roles::NONE, |roles, role| roles.or(Roles::of(role)));
+        let _reported = self.check_allowed(place, roles, e);
+    }
+
+    fn fail_not_allowed(
+        &mut self,
+        place: Place,
+        role: Role,
+        span: Span,
+        name: Option<&str>,
+    ) -> Evaluated<()> {
         let what = place.description(self.entry.as_deref());
         let direct = name.filter(|name| self.scope.definition(name).is_none() && *name != "t");
         let on = match direct {
@@ -191,28 +228,35 @@ impl Evaluator<'_> {
         )
     }
 
-    /// The first name or call inside an expression that brings in one of these kinds of symbol.
-    fn culprit<'e>(&self, e: &'e Expression, roles: Roles) -> Option<(Span, Option<&'e str>)> {
-        self.culprit_beside(&BTreeSet::new(), e, roles)
+    /// The names and calls inside an expression that bring in one of these kinds of symbol.
+    fn culprits<'e>(&self, e: &'e Expression, roles: Roles) -> Vec<(Span, Option<&'e str>)> {
+        let mut found = Vec::new();
+        self.culprits_beside(&BTreeSet::new(), e, roles, &mut found);
+        found
     }
 
-    /// The culprit in the expression of a function, whose arguments are none.
-    pub(super) fn culprit_beside<'e>(
+    /// The culprits in the expression of a function, whose arguments are none.
+    pub(super) fn culprits_beside<'e>(
         &self,
         arguments: &BTreeSet<&str>,
         e: &'e Expression,
         roles: Roles,
-    ) -> Option<(Span, Option<&'e str>)> {
+        found: &mut Vec<(Span, Option<&'e str>)>,
+    ) {
         match &e.kind {
-            ExpressionKind::Name(name) if arguments.contains(name.text.as_str()) => None,
+            ExpressionKind::Name(name)
+                if arguments.contains(name.text.as_str())
+                    || self.functions.argument(&name.text).is_some() => {}
             ExpressionKind::Name(name) => {
                 let own = if name.text == "t" {
                     Roles::of(Role::Time)
                 } else {
-                    let parts = self.scope.peek(&name.text)?.expressions();
+                    let parts = self.scope.peek(&name.text).map(Value::expressions).unwrap_or_default();
                     parts.iter().fold(Roles::NONE, |all, e| all.or(self.bench.graph.roles(*e)))
                 };
-                own.meets(roles).then(|| (name.span(), Some(name.text.as_str())))
+                if own.meets(roles) {
+                    found.push((name.span(), Some(name.text.as_str())));
+                }
             }
             ExpressionKind::Call { function, .. }
                 if roles.has(Role::Velocity)
@@ -221,24 +265,30 @@ impl Evaluator<'_> {
                         "dot" | "angular_velocity" | "angular_velocity_body"
                     ) =>
             {
-                Some((function.span(), None))
+                found.push((function.span(), None));
             }
             // The rate of a state has in it what its declaration has.
             ExpressionKind::Call { function, arguments, .. }
                 if function.text == "dot" && self.have_rates_with(arguments, roles) =>
             {
-                Some((function.span(), None))
+                found.push((function.span(), None));
             }
             ExpressionKind::Call { function, .. } if self.brings_in(&function.text, roles) => {
-                Some((function.span(), Some(function.text.as_str())))
+                found.push((function.span(), Some(function.text.as_str())));
             }
+            // It takes the name of a constraint or a contact, and no value.
+            ExpressionKind::Call { function, .. } if self.takes_a_name(function) => {}
             ExpressionKind::Method { name, .. } | ExpressionKind::Field { name, .. }
                 if roles.has(Role::Velocity)
                     && matches!(name.text.as_str(), "velocity_at" | "angular_velocity") =>
             {
-                Some((name.span(), None))
+                found.push((name.span(), None));
             }
-            _ => e.children().into_iter().find_map(|child| self.culprit_beside(arguments, child, roles)),
+            _ => {
+                for child in e.children() {
+                    self.culprits_beside(arguments, child, roles, found);
+                }
+            }
         }
     }
 

@@ -2,6 +2,8 @@
 
 use guen_symbolic::{ExprId, FrameId};
 
+use super::contact::ContactKind;
+
 /// A vector in space, by its components in the world's axes.
 pub(super) type Vector = [ExprId; 3];
 
@@ -94,6 +96,6 @@ pub(super) struct ContactValue {
     pub(super) reaction: Value,
     /// The forms of its rows, where they are constraints; the reaction has them in the place of the forces.
     pub(super) is_held: bool,
-    /// Whether it is a contact without friction.
-    pub(super) is_smooth: bool,
+    /// The kind of the contact.
+    pub(super) kind: ContactKind,
 }

@@ -106,7 +106,7 @@ fn clauses(contact: &Contact, kinds: &Kinds, moving: &Name, coordinates: &[Plain
     };
     match (has(ClauseWord::Grip), has(ClauseWord::Latch), has(ClauseWord::Slip)) {
         (Some(grip), ..) => {
-            vec![clause(ClauseWord::Grip, along(&grip.value)), clause(ClauseWord::Limit, number(0))]
+            vec![clause(ClauseWord::Grip, along(&grip.value)), clause(ClauseWord::Limit, number(1))]
         }
         (_, Some(_), _) => vec![clause(ClauseWord::Latch, value(moving))],
         (.., Some(slip)) => vec![

@@ -28,6 +28,7 @@ mod restricted;
 mod rows_of_bars;
 mod rules_of_bodies;
 mod scenes;
+mod signs_of_contacts;
 mod singularities;
 mod spans;
 mod states;

@@ -31,6 +31,7 @@ pub(crate) use id::mix;
 pub use id::{ExprId, SymbolId};
 pub(crate) use map::{FastMap, Key, Ordinal, SortedMap, spread};
 pub use node::{Node, PowerError};
+pub use ranges::PossibleSigns;
 pub use rational::Rational;
 pub(crate) use search::sort_ids;
 pub use substitute::Substitution;

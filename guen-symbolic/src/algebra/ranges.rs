@@ -188,6 +188,34 @@ impl Graph {
         self.manifestly_positive(id) || self.range(id, &mut FastMap::default()).is_above_zero()
     }
 
+    /// The signs that an expression may have where some symbols lie between numbers: an end that is `None` is infinite.
+    ///
+    /// ```
+    /// use guen_symbolic::{Graph, PossibleSigns, Rational, Role};
+    ///
+    /// let mut g = Graph::new();
+    /// let e = g.symbol("e", Role::Constant);
+    /// let one = g.one();
+    /// let rest = g.sub(one, e);
+    /// let to_one = [(e, [Some(Rational::ZERO), Some(Rational::ONE)])];
+    /// let never_below = PossibleSigns { below: false, zero: true, above: true };
+    /// assert_eq!(g.signs_within(rest, &to_one), never_below);
+    /// assert!(g.signs_within(rest, &[]).below);
+    /// ```
+    pub fn signs_within(&self, id: ExprId, limits: &[(ExprId, [Option<Rational>; 2])]) -> PossibleSigns {
+        let mut known = FastMap::default();
+        for (symbol, [low, high]) in limits {
+            let open = [low.is_none(), high.is_none()];
+            let low = low.clone().map_or(End::Below, End::At);
+            let high = high.clone().map_or(End::Above, End::At);
+            known.insert(*symbol, Range { low, high, open });
+        }
+        let range = self.range(id, &mut known);
+        let (below, above) = (range.low < End::zero(), range.high > End::zero());
+        let is_above = self.manifestly_positive(id);
+        PossibleSigns { below: below && !is_above, zero: range.has_zero() && !is_above, above }
+    }
+
     fn range(&self, id: ExprId, known: &mut FastMap<ExprId, Range>) -> Range {
         if let Some(range) = known.get(&id) {
             return range.clone();
@@ -236,6 +264,18 @@ impl Graph {
         known.insert(id, range.clone());
         range
     }
+}
+
+/// The signs that the values of an expression may have, as far as the ranges of its terms tell: a sign that is not among them is proved
+/// never to occur.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct PossibleSigns {
+    /// Whether a value below zero is not excluded.
+    pub below: bool,
+    /// Whether zero is not excluded.
+    pub zero: bool,
+    /// Whether a value above zero is not excluded.
+    pub above: bool,
 }
 
 /// The numbers of at most this size.

@@ -1,8 +1,8 @@
-//! Two faults give two errors.
+//! Every name that an energy cannot depend on is an error of its own.
 //!
 //! repair: ` + L*current` => ``
 //! repair: ` - heat*omega` => ``
-//! errors: 2
+//! errors: 3
 
 guen::mechanical_system! {
     pub system Motor {

@@ -3,6 +3,7 @@
 use guen_symbolic::{Derivation, ExprId, Flow, Substitution, Verdict, Workbench, weighted_cost};
 
 use super::super::{faults, fixed};
+use super::rows;
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{ContactKind, Contacts, Model};
 
@@ -212,7 +213,7 @@ fn affine(bench: &mut Workbench, forces: &[ExprId], expressions: &[ExprId]) -> V
     found
 }
 
-/// Reports gaps that never change, and states whose rates depend on forces of contacts.
+/// Reports rows that no force can hold, and states whose rates depend on forces of contacts.
 fn check(
     model: &mut Model<'_>,
     contacts: &Contacts<'_>,
@@ -223,21 +224,10 @@ fn check(
     let bench = &mut model.bench;
     let (n, l) = (model.coordinates.len(), derivation.system.forms.degrees);
     let before = faults.count();
-    let mut first = 0;
-    // In a component the first instance is named.
-    let mut places = Vec::new();
-    for entry in &contacts.entries {
-        let place = format!("{:?}", entry.gap_span);
-        if entry.gap.is_some()
-            && !places.contains(&place)
-            && bench.verdict_on_manifold(rows[first]) == Verdict::Zero
-        {
-            let what = if entry.kind == ContactKind::Latch { "latch" } else { "gap" };
-            let text = format!("the {what} of `{}` never changes", entry.name);
-            faults.report(Fault::new(entry.gap_span, text).note("its rate vanishes on the constraints"));
-            places.push(place);
-        }
-        first += entry.rows.len();
+    // Those of an outline have one coordinate for gap and slip, because no mode of it is ever solved.
+    if !model.declaration.is_outline {
+        let instances = &model.declaration.instances;
+        rows::check(bench, contacts, instances, (rows, &derivation.system.etas[..l]), faults);
     }
     if faults.count() > before {
         return None;

@@ -4,6 +4,7 @@ mod along;
 mod assembled;
 mod coefficients;
 mod held;
+mod signs;
 mod words;
 
 use guen_symbolic::FormShape;
@@ -31,11 +32,14 @@ impl<'a> Resolver<'a, '_> {
         let function = self.eval.scalar_at(Place::Switch, &switch.value);
         let mut symbol = self.eval.bench.graph.symbol(&switch.name.text, Role::Input);
         let function = function.and_then(|function| {
-            if self.eval.bench.graph.as_number(function).is_some() {
-                let text = format!("the switch `{}` never changes", switch.name);
-                return self.eval.fail(Fault::new(switch.value.extent(), text));
+            let signs = self.signs(function, None);
+            if signs.above && (signs.below || signs.zero) {
+                return Ok(function);
             }
-            Ok(function)
+            let text = format!("the switch `{}` never changes", switch.name);
+            let fault = Fault::new(switch.value.extent(), text);
+            let (value, sign) = if signs.above { (1, "everywhere") } else { (0, "nowhere") };
+            self.eval.fail(fault.note(format!("it is {value}: its function is {sign} above zero")))
         });
         if let (Some(_), Ok(function)) = (&self.declaration.in_mode, &function) {
             // Without contacts it follows the state.
@@ -103,13 +107,38 @@ impl<'a> Resolver<'a, '_> {
             slip: (!tangential.is_empty()).then(|| of_rows(tangential, |row| row.form)),
             reaction: of_rows(&entry.rows, |row| row.force),
             is_held: false,
-            is_smooth: entry.kind == ContactKind::Smooth,
+            kind: entry.kind,
+        }
+    }
+
+    /// Reports what is wrong in the clauses of a contact of which it is not known what it is.
+    fn clauses(&mut self, contact: &'a Contact) {
+        for clause in &contact.clauses {
+            let place = match clause.word {
+                ClauseWord::Gap => Place::Gap,
+                ClauseWord::Slip => Place::Slip,
+                ClauseWord::Grip => Place::Grip,
+                ClauseWord::Latch => Place::Latch,
+                ClauseWord::Stiction => Place::Stiction,
+                ClauseWord::Restitution => Place::Restitution,
+                ClauseWord::Limit => Place::GripForce,
+                ClauseWord::When | ClauseWord::Release => Place::Condition,
+                // `speed` and `reaction(name)` have their meaning there.
+                ClauseWord::Friction | ClauseWord::Load => continue,
+            };
+            let _reported = self.eval.at(place, &clause.value);
         }
     }
 
     fn entry(&mut self, contact: &'a Contact) -> Evaluated<RawContact<'a>> {
         let before = self.eval.faults.count();
-        let kind = self.kind(contact)?;
+        let kind = match self.kind(contact) {
+            Ok(kind) => kind,
+            Err(reported) => {
+                self.clauses(contact);
+                return Err(reported);
+            }
+        };
         self.words(contact, kind);
         let mut rows = Vec::new();
         let mut shapes = Vec::new();
@@ -161,7 +190,7 @@ impl<'a> Resolver<'a, '_> {
         };
         let condition = |this: &mut Self, word: ClauseWord| {
             let clause = contact.clause(word)?;
-            let value = this.eval.scalar_at(Place::Condition, &clause.value).ok()?;
+            let value = this.eval.scalar_at(Place::Condition, &clause.value);
             this.condition(contact, clause, value).ok()
         };
         let when = condition(self, ClauseWord::When);
@@ -169,12 +198,12 @@ impl<'a> Resolver<'a, '_> {
         if self.eval.faults.count() > before {
             return Err(self.eval.faults.reported_before());
         }
-        let graph = &mut self.eval.bench.graph;
-        let zero = graph.zero();
+        let zero = self.eval.bench.graph.zero();
         let at_rest = |graph: &mut Graph, e: ExprId| {
             let still = speed.map(|speed| (speed, zero));
             Substitution::new(still).of(graph, e)
         };
+        let graph = &mut self.eval.bench.graph;
         let symbol = speed.and_then(|speed| graph.as_symbol(speed));
         let friction_of_speed = friction.is_some_and(|friction| {
             symbol.is_some_and(|speed| graph.symbols_in(&[friction]).contains(&speed))
@@ -182,7 +211,8 @@ impl<'a> Resolver<'a, '_> {
         if let (Some(friction), Some(stiction)) = (friction, stiction) {
             let still = at_rest(graph, friction);
             let less = graph.sub(still, stiction);
-            if graph.is_above_zero(less) {
+            let signs = self.signs(less, None);
+            if !signs.below && !signs.zero {
                 let clause = contact.clause(ClauseWord::Stiction).unwrap_or(kind);
                 let text = format!("the stiction of `{}` is below its friction", contact.name);
                 let fault = Fault::new(clause.value.extent(), text);
@@ -190,6 +220,7 @@ impl<'a> Resolver<'a, '_> {
                 return self.eval.fail(fault);
             }
         }
+        let graph = &mut self.eval.bench.graph;
         let stiction = stiction.or_else(|| friction.map(|friction| at_rest(graph, friction)));
         let limit = match (limit, friction, load) {
             (None, Some(friction), Some(load)) => Some(graph.mul(friction, load)),
@@ -213,6 +244,7 @@ impl<'a> Resolver<'a, '_> {
             kind: kind_of,
             gap,
             gap_span: kind.value.extent(),
+            along_spans: along.map(|clause| places_of_components(clause, &axes)).unwrap_or_default(),
             rows: rows.collect(),
             axes,
             friction,
@@ -228,4 +260,16 @@ impl<'a> Resolver<'a, '_> {
         };
         Ok(RawContact { entry, shapes })
     }
+}
+
+/// The places of the components of a velocity: those of the arguments where they are written one by one.
+fn places_of_components(clause: &Clause, axes: &[&'static str]) -> Vec<proc_macro2::Span> {
+    let whole = clause.value.extent();
+    let arguments = match &clause.value.kind {
+        ExpressionKind::Call { function, arguments, .. } if function.text == "vec" => &arguments[..],
+        _ => &[],
+    };
+    let place = |axis: &str| ["x", "y", "z"].iter().position(|known| *known == axis);
+    let own = |axis: &&str| place(axis).and_then(|i| arguments.get(i)).map_or(whole, Expression::extent);
+    if axes.is_empty() { vec![whole] } else { axes.iter().map(own).collect() }
 }

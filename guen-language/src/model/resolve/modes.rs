@@ -150,6 +150,10 @@ impl<'a> Stated<'a, '_> {
                 }
                 for state in states {
                     let meant = of_word(self.entries[place], state, faults);
+                    if !meant.is_empty() && meant.iter().all(|state| found.contains(state)) {
+                        let text = format!("the state `{state}` of `{contact}` is given twice");
+                        faults.report(Fault::new(state.span(), text).help("remove this"));
+                    }
                     // A system narrows what a component says.
                     if let Some((first, _)) = before
                         && !meant.is_empty()

@@ -13,12 +13,14 @@ impl<'a> Resolver<'a, '_> {
         let before = self.eval.faults.count();
         self.eval.scope.declare(self.eval.faults, &reset.name, Category::Reset, None);
         let function = self.eval.scalar_at(Place::ResetFunction, &reset.function);
-        let moving = [Role::Time, Role::Coordinate, Role::Velocity, Role::QuasiVelocity, Role::State];
         if let Ok(function) = function
-            && !moving.into_iter().any(|role| self.eval.bench.graph.roles(function).has(role))
+            && !self.passes_through_zero(function)
         {
-            let text = format!("the function of reset `{}` never changes", reset.name);
-            self.eval.faults.report(Fault::new(reset.function.extent(), text));
+            let is_constant = self.eval.bench.graph.roles(function).is_constant();
+            let does = if is_constant { "changes" } else { "passes through zero" };
+            let text = format!("the function of reset `{}` never {does}", reset.name);
+            let note = "a reset happens where its function passes through zero";
+            self.eval.faults.report(Fault::new(reset.function.extent(), text).note(note));
         }
         if reset.assignments.is_empty() {
             let fault = Fault::new(reset.name.span(), format!("the reset `{}` changes nothing", reset.name));

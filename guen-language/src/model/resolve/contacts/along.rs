@@ -20,13 +20,24 @@ impl Resolver<'_, '_> {
     pub(super) fn gap(&mut self, contact: &Contact, clause: &Clause) -> Evaluated<ExprId> {
         let place = if clause.word == ClauseWord::Latch { Place::Latch } else { Place::Gap };
         let gap = self.eval.scalar_at(place, &clause.value)?;
-        if self.eval.bench.graph.roles(gap).has(Role::Coordinate) {
-            return Ok(gap);
-        }
         let what = if clause.word == ClauseWord::Latch { "latch" } else { "gap" };
-        let fault =
-            Fault::new(clause.value.extent(), format!("the {what} of `{}` never changes", contact.name));
-        self.eval.fail(fault.note("it depends on no coordinate"))
+        let (name, span) = (&contact.name, clause.value.extent());
+        let fault = |text: String| Fault::new(span, format!("the {what} of `{name}` {text}"));
+        if !self.eval.bench.graph.roles(gap).has(Role::Coordinate) {
+            return self.eval.fail(fault("never changes".to_owned()).note("it depends on no coordinate"));
+        }
+        let signs = self.signs(gap, None);
+        if !signs.zero {
+            let sign = if signs.above { "above" } else { "below" };
+            let fault = fault("never reaches zero".to_owned());
+            return self.eval.fail(fault.note(format!("it is {sign} zero everywhere")));
+        }
+        if !signs.above && clause.word == ClauseWord::Gap {
+            return self
+                .eval
+                .fail(fault("is nowhere above zero".to_owned()).note("a contact is open where its gap is"));
+        }
+        Ok(gap)
     }
 
     /// The velocity along a contact: its components that do not vanish, each with its structure.

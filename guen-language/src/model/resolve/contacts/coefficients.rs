@@ -34,28 +34,38 @@ impl<'a> Resolver<'a, '_> {
         };
         let value = self.eval.scalar_at(place, &clause.value);
         self.eval.functions.frames.pop();
-        let value = self.not_below_zero(contact, clause, value?)?;
-        self.without_inputs(contact, clause, value)
+        let value = self.without_inputs(contact, clause, value)?;
+        self.not_below_zero(contact, clause, value, speed)
     }
 
     /// The limit of a grip, or its load where that is an expression.
     pub(super) fn force_of_grip(&mut self, contact: &Contact, clause: &Clause) -> Evaluated<ExprId> {
         let place = if clause.word == ClauseWord::Load { Place::GripLoad } else { Place::GripForce };
         let value = self.eval.scalar_at(place, &clause.value)?;
-        self.not_below_zero(contact, clause, value)
+        self.not_below_zero(contact, clause, value, None)
     }
 
     /// A value of which it is not seen that it is below zero, itself or by the default of the constant that it is.
-    fn not_below_zero(&mut self, contact: &Contact, clause: &Clause, value: ExprId) -> Evaluated<ExprId> {
-        let graph = &mut self.eval.bench.graph;
-        let opposite = graph.neg(value);
-        let word = clause.word.text();
+    fn not_below_zero(
+        &mut self,
+        contact: &Contact,
+        clause: &Clause,
+        value: ExprId,
+        speed: Option<ExprId>,
+    ) -> Evaluated<ExprId> {
+        let (word, name) = (clause.word.text(), &contact.name);
+        let signs = self.signs(value, speed);
         let text = match self.default_of(value) {
-            _ if self.eval.bench.graph.is_above_zero(opposite) => {
-                format!("the {word} of `{}` is below zero", contact.name)
+            _ if !signs.above && !signs.zero => format!("the {word} of `{name}` is below zero"),
+            _ if !signs.above && !self.eval.bench.vanishes(value) => {
+                format!("the {word} of `{name}` is nowhere above zero")
             }
-            Some((name, default)) if default < 0.0 => {
-                format!("the {word} `{name}` of `{}` is below zero by its default", contact.name)
+            Some((constant, default)) if default < 0.0 => {
+                format!("the {word} `{constant}` of `{name}` is below zero by its default")
+            }
+            _ if contact.clause(ClauseWord::Grip).is_some() && self.eval.bench.graph.is_zero(value) => {
+                let fault = Fault::new(clause.value.extent(), format!("the {word} of `{name}` is zero"));
+                return self.eval.fail(fault.note("a grip without force holds nothing"));
             }
             _ => return Ok(value),
         };
@@ -70,18 +80,27 @@ impl<'a> Resolver<'a, '_> {
         Some((constant.name, graph.as_number(constant.default?)?.to_f64()))
     }
 
-    /// A condition, which depends on no input; that of a release has to change for it to rise.
+    /// A condition, which depends on no input; that of a release has to pass through zero.
     pub(super) fn condition(
         &mut self,
         contact: &Contact,
         clause: &Clause,
-        value: ExprId,
+        value: Evaluated<ExprId>,
     ) -> Evaluated<ExprId> {
         let value = self.without_inputs(contact, clause, value)?;
-        let graph = &self.eval.bench.graph;
-        if clause.word == ClauseWord::Release && graph.roles(value).is_constant() {
-            let text = format!("the release of `{}` never changes", contact.name);
+        if clause.word == ClauseWord::When {
+            return self.undecided(contact, clause, value);
+        }
+        if !self.passes_through_zero(value) {
+            let is_constant = self.eval.bench.graph.roles(value).is_constant();
+            let does = if is_constant { "changes" } else { "passes through zero" };
+            let text = format!("the release of `{}` never {does}", contact.name);
             let fault = Fault::new(clause.value.extent(), text);
+            let signs = self.signs(value, None);
+            let fault = match signs.below && signs.above && !is_constant {
+                true => fault.note("it changes where a switch does, and jumps there"),
+                false => fault,
+            };
             return self.eval.fail(fault.note("a latch is free again where its release rises through zero"));
         }
         Ok(value)
@@ -124,28 +143,40 @@ impl<'a> Resolver<'a, '_> {
                 let text = format!("restitution `{name}` lies outside of 0 to 1 by its default");
                 return self.eval.fail(Fault::new(span, text));
             }
+            return Ok(value);
         }
-        Ok(value)
+        match self.outside_of_unit(value) {
+            None => Ok(value),
+            Some((verb, note)) => {
+                let source = clause.value.source();
+                let text = format!("restitution `{source}` of `{}` {verb} outside of 0 to 1", contact.name);
+                let fault = Fault::new(span, text);
+                self.eval.fail(note.into_iter().fold(fault, Fault::note))
+            }
+        }
     }
 
-    /// An expression in which switches may stand, and inputs may not.
+    /// A value in which switches may stand, and inputs may not. Where there is none, because of another fault, its names are looked at.
     pub(super) fn without_inputs(
         &mut self,
         contact: &Contact,
         clause: &Clause,
-        value: ExprId,
+        value: Evaluated<ExprId>,
     ) -> Evaluated<ExprId> {
         let graph = &self.eval.bench.graph;
-        let symbols = graph.symbols_in(&[value]);
-        let input = self
-            .inputs
-            .iter()
-            .find(|input| graph.as_symbol(input.symbol).is_some_and(|symbol| symbols.contains(&symbol)));
-        let Some(input) = input else { return Ok(value) };
-        let span = self.place_of(&clause.value, input.symbol).unwrap_or(clause.value.extent());
-        let text = format!("the {} of `{}` depends on an input", clause.word.text(), contact.name);
-        let fault = Fault::new(span, text).note(format!("`{}` is an input", input.name));
-        self.eval.fail(fault)
+        let symbols = value.as_ref().ok().map(|value| graph.symbols_in(&[*value]));
+        let is_inside = |symbol: ExprId| match &symbols {
+            Some(symbols) => graph.as_symbol(symbol).is_some_and(|symbol| symbols.contains(&symbol)),
+            None => self.place_of(&clause.value, symbol).is_some(),
+        };
+        let inputs: Vec<_> = self.inputs.iter().filter(|input| is_inside(input.symbol)).collect();
+        let mut faults = Vec::new();
+        for input in inputs {
+            let span = self.place_of(&clause.value, input.symbol).unwrap_or(clause.value.extent());
+            let text = format!("the {} of `{}` depends on an input", clause.word.text(), contact.name);
+            faults.push(Fault::new(span, text).note(format!("`{}` is an input", input.name)));
+        }
+        faults.into_iter().map(|fault| self.eval.faults.report(fault)).last().map_or(value, Err)
     }
 
     /// The first name in an expression that brings in a symbol.
@@ -184,8 +215,10 @@ impl<'a> Resolver<'a, '_> {
         let Ok((name, contact)) = self.eval.contact_named(REACTION, arguments, *list) else {
             return Some(Loading::Fault);
         };
-        if !contact.is_smooth {
-            let text = format!("`{name}` has friction of its own, and cannot load a grip");
+        if contact.kind != ContactKind::Smooth {
+            let is =
+                if contact.kind == ContactKind::Latch { "is a latch" } else { "has friction of its own" };
+            let text = format!("`{name}` {is}, and cannot load a grip");
             self.eval.faults.report(
                 Fault::new(name.span(), text)
                     .note("a grip is loaded by the force of a contact without friction"),

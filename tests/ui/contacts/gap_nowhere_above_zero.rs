@@ -1,0 +1,21 @@
+//! A contact whose gap is nowhere above zero is never open.
+//!
+//! repair: `gap = -x^2` => `gap = 1 - x^2`
+
+guen::mechanical_system! {
+    pub system Ball {
+        constants { m > 0, a > 0, J > 0, mu >= 0, e in 0..1 = 0, g = 9.81 }
+        inputs { push }
+        coordinates { x, z, phi }
+        parameters { u = dot(x); w = dot(z); spin = dot(phi); }
+        kinetic_energy = m/2*(u^2 + w^2) + J/2*spin^2;
+        potential_energy = m*g*z;
+        switches { ice: x - 5; }
+        forces { push along u; }
+        contacts {
+            floor: gap = -x^2;
+        }
+    }
+}
+
+fn main() {}

@@ -1,0 +1,21 @@
+//! A grip without force holds nothing.
+//!
+//! repair: `limit = 0` => `limit = 2`
+
+guen::mechanical_system! {
+    pub system Ball {
+        constants { m > 0, a > 0, J > 0, mu >= 0, e in 0..1 = 0, g = 9.81 }
+        inputs { push }
+        coordinates { x, z, phi }
+        parameters { u = dot(x); w = dot(z); spin = dot(phi); }
+        kinetic_energy = m/2*(u^2 + w^2) + J/2*spin^2;
+        potential_energy = m*g*z;
+        switches { ice: x - 5; }
+        forces { push along u; }
+        contacts {
+            axle: grip = spin, limit = 0;
+        }
+    }
+}
+
+fn main() {}

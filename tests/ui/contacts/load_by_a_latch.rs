@@ -1,0 +1,23 @@
+//! A latch cannot load a grip.
+//!
+//! repair: `reaction(bolt)` => `reaction(wall)`
+
+guen::mechanical_system! {
+    pub system Ball {
+        constants { m > 0, a > 0, J > 0, mu >= 0, e in 0..1 = 0, g = 9.81 }
+        inputs { push }
+        coordinates { x, z, phi }
+        parameters { u = dot(x); w = dot(z); spin = dot(phi); }
+        kinetic_energy = m/2*(u^2 + w^2) + J/2*spin^2;
+        potential_energy = m*g*z;
+        switches { ice: x - 5; }
+        forces { push along u; }
+        contacts {
+            bolt: latch = phi, release = t - 1;
+            wall: gap = 9 - x;
+            axle: grip = spin, friction = mu, load = reaction(bolt);
+        }
+    }
+}
+
+fn main() {}

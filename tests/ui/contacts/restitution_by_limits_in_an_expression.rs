@@ -1,0 +1,21 @@
+//! An expression of a coefficient is looked at where its constants have their limits.
+//!
+//! repair: `restitution = e + 1` => `restitution = 1 - e`
+
+guen::mechanical_system! {
+    pub system Ball {
+        constants { m > 0, a > 0, J > 0, mu >= 0, e in 0..1 = 0, g = 9.81 }
+        inputs { push }
+        coordinates { x, z, phi }
+        parameters { u = dot(x); w = dot(z); spin = dot(phi); }
+        kinetic_energy = m/2*(u^2 + w^2) + J/2*spin^2;
+        potential_energy = m*g*z;
+        switches { ice: x - 5; }
+        forces { push along u; }
+        contacts {
+            floor: gap = z - a, restitution = e + 1;
+        }
+    }
+}
+
+fn main() {}

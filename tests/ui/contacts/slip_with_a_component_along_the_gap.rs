@@ -1,0 +1,21 @@
+//! A component of the slip along the gap is not removed.
+//!
+//! repair: `vec(u, w, 0)` => `vec(u, v, 0)`
+
+guen::mechanical_system! {
+    pub system Ball {
+        constants { m > 0, a > 0, J > 0, mu >= 0, e in 0..1 = 0, g = 9.81 }
+        inputs { push }
+        coordinates { x, z, phi, y }
+        parameters { u = dot(x); w = dot(z); spin = dot(phi); v = dot(y); }
+        kinetic_energy = m/2*(u^2 + w^2 + v^2) + J/2*spin^2;
+        potential_energy = m*g*z;
+        switches { ice: x - 5; }
+        forces { push along u; }
+        contacts {
+            floor: gap = z - a, slip = vec(u, w, 0), friction = mu;
+        }
+    }
+}
+
+fn main() {}
