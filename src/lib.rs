@@ -56,11 +56,12 @@ pub use guen_runtime::{
     BodyFault, Catastatic, Cause, Class, Coefficient, Commutator, Conservative, ConstantsError, Coordinate,
     Cost, Derived, Differentiable, Displacement, Dual, Equations, Function, Functions, Fused,
     FusedOperations, Generic, Grid, Holonomic, IncompleteLieGroup, InputLaw, InputRecords, InputValues,
-    IntegrationError, Invariants, LaneScalar, Laned, LatexDocument, Level, LevelInfo, Levels, LieGroup, Lift,
-    Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputMap, Positions, PositionsError,
-    Projected, Real, Renormalized, Report, ReportSection, Rheonomic, RunningError, Scleronomic, Setting,
-    Simulate, Smooth, SmoothLaw, Source, System, Table, TableError, WithFunctions, WithInputs, WithScalar,
-    from_fn, generic, hybrid, lanes, project, projected, renormalized, steppers,
+    IntegrationError, Invariants, Kernel, KernelMethod, LaneScalar, Laned, LatexDocument, Level, LevelInfo,
+    Levels, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputMap, Positions,
+    PositionsError, Projected, Real, Renormalized, Report, ReportSection, Rheonomic, RunningError,
+    Scleronomic, Setting, Simulate, Smooth, SmoothLaw, Source, Sourced, System, Table, TableError,
+    WithFunctions, WithInputs, WithScalar, from_fn, generic, hybrid, lanes, project, projected, renormalized,
+    steppers,
 };
 pub use guen_runtime::{Coefficients, Convolutions, DrivenSeries, HIGHEST_ORDER, PowerSeries, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, linearized, seeded};
@@ -213,16 +214,16 @@ pub mod __private {
         Invariants, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable, Linearization,
         Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, OutputMap, Positions,
         PositionsError, PreparedValues, Real, Report, ReportSection, Rheonomic, RunningError, Scleronomic,
-        Shape, Simulate, Smooth, Source, System, TaylorSeries, Undriven, Unprepared, WithInputs, WithScalar,
-        linearized, nalgebra_conversions, seeded,
+        Shape, Simulate, Smooth, Source, Sourced, System, TaylorSeries, Undriven, Unprepared, WithInputs,
+        WithScalar, linearized, nalgebra_conversions, seeded,
     };
     pub use guen_runtime::{
         actuated, condition, conserved, contact_mode, contact_states, differentiable, domain, dynamics,
         energy, facts, held_through_modes, instance_mode, jacobians, laned, level_info, levels, linearizable,
         mass_form, momenta, monitored, motion_of_system, onto_constraints, operators, output_map, prepare,
         prepared, program, program_functions, rates, reaction_covector, reactions, record, reduce, reported,
-        restored_by_modes, simulated, simulated_through_modes, singularities, source, state_of_system,
-        steady_motions, structured, switches, uses, with_scalar,
+        restored_by_modes, simulated, simulated_through_modes, singularities, source, sourced,
+        state_of_system, steady_motions, structured, switches, uses, with_scalar,
     };
     pub use guen_runtime::{
         consistent, control, furthest_surplus, hybrid, onto, serde_record, serde_structured,

@@ -83,7 +83,7 @@ pub use report::{LatexDocument, MarkdownDocument, Report, ReportSection};
 pub use simulation::{
     Happened, Quality, Simulation, SimulationError, SimulationWithoutInputs, Trajectory, Trigger,
 };
-pub use source::Source;
+pub use source::{Kernel, KernelMethod, Source, Sourced};
 pub use steppers::{Cause, IntegrationError, Setting};
 pub use system::actuated::{Actuated, WithInputs};
 pub use system::auxiliary_states::{AuxiliaryStates, Renormalized, renormalized};

@@ -14,6 +14,7 @@
 //! | what does it look like? | [`Plot`], an SVG picture |
 //! | how does it move? | `Viewer`, an HTML page that plays a recording; feature `viewer` |
 //! | what if it begins elsewhere? | [`Ensemble`]: many motions in lanes and on threads |
+//! | what if there is a graphics processor? | [`Ensemble::on`]: the same motions on a [`Device`] |
 //! | what of a million of them? | [`Sweep`]: designs, rows in files, statistics, in parts that survive a kill |
 //! | which method, which real, which step? | `Study`, with the feature `study`: the trade of speed for accuracy, measured |
 //! | what did a scene leave out? | [`recover`]: integrals along a recorded run of a scene, with their errors |
@@ -44,7 +45,8 @@
 //! # Ok::<(), guen_study::StudyError>(())
 //! ```
 #![cfg_attr(docsrs, feature(doc_cfg))]
-#![forbid(unsafe_code)]
+// Kernels are launched by code that is unsafe, in one file.
+#![cfg_attr(not(feature = "cuda"), forbid(unsafe_code))]
 #![deny(missing_docs)]
 
 #[cfg(test)]
@@ -72,7 +74,9 @@ mod table;
 #[cfg(feature = "viewer")]
 mod viewer;
 
-pub use ensemble::{End, Ensemble, Sampled};
+pub use ensemble::{Device, DeviceFault, DeviceMethod, DeviceRun, End, Ensemble, OnDevice, Sampled};
+#[doc(hidden)]
+pub use ensemble::{KernelBatch, KernelEngine, KernelOutcome};
 pub use error::StudyError;
 pub use export::Export;
 pub use file::replace_file;

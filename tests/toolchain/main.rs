@@ -8,6 +8,7 @@ mod bare;
 mod commands;
 mod elf;
 mod hygiene;
+mod kernels;
 mod messages;
 mod no_std;
 mod panics;

@@ -342,7 +342,7 @@ fn settings(round: usize, draw: &mut impl FnMut() -> f64) -> [f64; 6] {
 }
 
 /// Numbers that are the same in every run of the tests, between -1 and 1.
-fn draws() -> impl FnMut() -> f64 {
+pub(crate) fn draws() -> impl FnMut() -> f64 {
     let mut state = 0x2545_f491_4f6c_dd1d_u64;
     move || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

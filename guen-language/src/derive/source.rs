@@ -24,9 +24,12 @@ pub(super) fn check(
         faults.report(Fault::new(word.span(), text).help(help));
         return;
     }
-    let rates = programs.functions.iter().find(|known| known.name == function::RHS);
-    let rates = rates.into_iter().flat_map(|rates| &rates.instructions);
-    let supplied = programs.prepare.iter().chain(rates).find_map(|step| match &step.operation {
+    let written = programs
+        .functions
+        .iter()
+        .filter(|known| [function::RHS, function::DOMAIN].contains(&known.name.as_str()));
+    let written = written.flat_map(|program| &program.instructions);
+    let supplied = programs.prepare.iter().chain(written).find_map(|step| match &step.operation {
         Operation::Apply(Multivariate::Supplied { function, .. }, _) => {
             model.functions.get(usize::from(*function))
         }

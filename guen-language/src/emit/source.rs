@@ -13,7 +13,7 @@ use super::layout::{Layout, variable_name};
 use crate::derive::{Subject, function};
 use crate::names::module_name;
 
-/// The constant `SOURCE`, of a level that provides it; without a program in an outline.
+/// The constant `SOURCE` and the trait `Sourced`, of a level that provides them; without a program in an outline.
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, is_outline: bool) -> TokenStream {
     if !subject.level.provides_source {
         return TokenStream::new();
@@ -21,7 +21,12 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, is_outline: bool
     let name = name(subject);
     let program = if is_outline { String::new() } else { program(&name, subject, layout) };
     let (steps, adaptive) = (subject.level.steps_in_c(), subject.level.steps_adapt_in_c());
-    quote!(__guen::source!(#name, #program, #steps, #adaptive);)
+    let Layout { size, constants, hoisted, inputs, .. } = layout;
+    let held = (*inputs > 0).then_some(inputs);
+    quote! {
+        __guen::source!(#name, #program, #steps, #adaptive);
+        __guen::sourced!(#size #constants #hoisted #held);
+    }
 }
 
 /// The word that everything in C begins with: the modules of the system and of the scene.
@@ -45,7 +50,7 @@ fn identifier(name: &str) -> String {
     letters.collect()
 }
 
-/// The sizes and places, `prepare`, and the right-hand side.
+/// The sizes and places, `prepare`, the right-hand side, and the functions that must not vanish.
 fn program(name: &str, subject: &Subject<'_, '_>, layout: &Layout) -> String {
     let Subject { model, level, .. } = subject;
     let places = Places::new(subject, false);
@@ -78,6 +83,17 @@ fn program(name: &str, subject: &Subject<'_, '_>, layout: &Layout) -> String {
     );
     if let Some(rates) = level.program(function::RHS) {
         text += &body(&rates.instructions, &rates.outputs, "r", &places);
+    }
+    let domain = level.program(function::DOMAIN);
+    let _ = write!(
+        text,
+        "}}\n\n#define {name}_DOMAIN {}\n\n/* The functions d that must not vanish, at the state s at time t. */\n\
+         GUEN_FUNCTION void {name}_domain(const double *c, const double *k, double t, const double *s, double *d)\n{{\n\
+         \x20   (void)c;\n    (void)k;\n    (void)t;\n    (void)s;\n    (void)d;\n",
+        domain.map_or(0, |domain| domain.outputs.len())
+    );
+    if let Some(domain) = domain {
+        text += &body(&domain.instructions, &domain.outputs, "d", &places);
     }
     text + "}\n"
 }

@@ -12,7 +12,7 @@ use crate::model::Model;
 use crate::syntax::{Name, Step};
 
 /// The macros of the runtime that name a type with parameters.
-const MACROS: [&str; 13] = [
+const MACROS: [&str; 14] = [
     "actuated",
     "differentiable",
     "held_through_modes",
@@ -24,6 +24,7 @@ const MACROS: [&str; 13] = [
     "prepared",
     "simulated",
     "simulated_through_modes",
+    "sourced",
     "state_of_system",
     "with_scalar",
 ];

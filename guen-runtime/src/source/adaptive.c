@@ -119,6 +119,10 @@ GUEN_FUNCTION int NAME_dop853(
     double f[16][NAME_STATES], r[8][NAME_STATES], w[NAME_STATES], last[NAME_STATES], end[NAME_STATES], e5[NAME_STATES], e3[NAME_STATES];
     double ready = method->first_step, level = 0.0;
     int i, j, has_level = 0, visited = 0, has_terms;
+#ifdef GUEN_WATCHED
+    double d[NAME_DOMAIN + 1];
+    NAME_domain(c, k, origin, x, d);
+#endif
     method->evaluations = method->accepted = method->rejected = 0;
     if (!guen_is_finite(origin) || !guen_is_finite(until) || !guen_in_order(origin, until, count, times))
         return 1;
@@ -198,6 +202,10 @@ GUEN_FUNCTION int NAME_dop853(
             if (time + copysign(step, span) == next)
                 step = shortest;
         }
+#ifdef GUEN_WATCHED
+        if (NAME_is_suspect(c, k, *t, end, 0.0, d))
+            return 5;
+#endif
         /* The samples of the step, of which the last may be at its end. */
         for (has_terms = 0; visited < count && !guen_earlier(*t, times[visited], span < 0.0); ++visited) {
             double *sample = samples + visited * NAME_STATES, h = *t - time, s, factor;

@@ -2,7 +2,10 @@
 #ifndef GUEN_ELEMENTARY
 #define GUEN_ELEMENTARY
 
+/* A compiler at run time has these functions without a header. */
+#ifndef __CUDACC_RTC__
 #include <math.h>
+#endif
 
 #ifdef __FAST_MATH__
 #error "guen: -ffast-math changes the results"

@@ -1,6 +1,12 @@
-//! The right-hand side of a system as a text of C.
+//! The right-hand side of a system as a text of C, and kernels of it for graphics processors.
+
+mod kernel;
+mod sourced;
 
 use core::fmt;
+
+pub use kernel::{Kernel, KernelMethod};
+pub use sourced::Sourced;
 
 use crate::steppers::explicit::tableau::Tableau;
 
@@ -21,6 +27,7 @@ const ADAPTIVE: &str = include_str!("adaptive.c");
 /// | `name_c_m`, `name_s_theta`, `name_u_torque` | the place of each constant, variable and input |
 /// | `name_prepare(c, k)` | computes what depends on constants alone; returns 0, the number of the first faulty constant, or -1 |
 /// | `name_rhs(c, k, t, s, u, r)` | the rates `r` of the state `s` |
+/// | `name_domain(c, k, t, s, d)` | the functions `d` that must not vanish, `name_DOMAIN` of them |
 /// | `name_rk4_step`, `name_rk8_step` | one step of [`Rk4`](crate::steppers::Rk4) or [`Rk8`](crate::steppers::Rk8) |
 /// | `name_rk4`, `name_rk8` | steps of one size up to a time |
 /// | `name_dop853` | a run of [`Dop853`](crate::steppers::Dop853) with samples |
@@ -62,9 +69,9 @@ impl fmt::Display for Source {
         writeln!(f, "{ELEMENTARY}\n{program}")?;
         if self.steps {
             let tableau = Tableau::new();
-            self.steppers(STEPPERS, &tableau, f)?;
+            self.fill(STEPPERS, &tableau, None, f)?;
             if self.adaptive {
-                self.steppers(ADAPTIVE, &tableau, f)?;
+                self.fill(ADAPTIVE, &tableau, None, f)?;
             }
         }
         f.write_str("#endif\n")
@@ -72,7 +79,29 @@ impl fmt::Display for Source {
 }
 
 impl Source {
-    fn steppers(&self, text: &'static str, tableau: &Tableau, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    /// The kernel that computes motions on a graphics processor, one for each thread; none if the text has no such stepper.
+    ///
+    /// ```
+    /// use guen_runtime::{KernelMethod, Source};
+    /// let source = Source { name: "fall", program: "/* rates */\n", steps: true, adaptive: false };
+    /// let kernel = source.kernel(KernelMethod::Rk4).unwrap();
+    /// assert_eq!(kernel.entry().to_string(), "fall_motions");
+    /// assert!(kernel.to_string().contains("GUEN_KERNEL void fall_motions("));
+    /// assert!(source.kernel(KernelMethod::Dop853).is_none());
+    /// ```
+    pub fn kernel(self, method: KernelMethod) -> Option<Kernel> {
+        let has = if method == KernelMethod::Dop853 { self.steps && self.adaptive } else { self.steps };
+        has.then_some(Kernel { source: self, method })
+    }
+
+    /// Writes a text with what stands for its places; those of a kernel are of a method.
+    fn fill(
+        &self,
+        text: &'static str,
+        tableau: &Tableau,
+        method: Option<KernelMethod>,
+        f: &mut fmt::Formatter<'_>,
+    ) -> fmt::Result {
         let weights = || tableau.rows().into_iter().flatten();
         let mut rest = text;
         // Words of capitals are places; everything between is the same for all systems.
@@ -80,6 +109,8 @@ impl Source {
             f.write_str(before)?;
             match word {
                 "NAME" => f.write_str(self.name)?,
+                "STEPPER" => f.write_str(method.map_or("", KernelMethod::stepper))?,
+                "EVALUATIONS" => write!(f, "{}", method.map_or(0, KernelMethod::evaluations))?,
                 "RK8_NODES" => numbers(f, tableau.nodes().iter())?,
                 "RK8_WEIGHTS" => numbers(f, weights())?,
                 "RK8_COUNT" => write!(f, "{}", weights().count())?,
@@ -96,8 +127,10 @@ impl Source {
 }
 
 /// The words that stand for something else.
-const PLACES: [&str; 9] = [
+const PLACES: [&str; 11] = [
     "NAME",
+    "STEPPER",
+    "EVALUATIONS",
     "RK8_NODES",
     "RK8_WEIGHTS",
     "RK8_COUNT",

@@ -1,4 +1,22 @@
 
+#ifdef GUEN_WATCHED
+/* Whether one of the functions that must not vanish has no longer the sign that it had in d, or has changed by more than a factor, if that is not
+   zero. Writes their values at x into d. */
+GUEN_FUNCTION int NAME_is_suspect(const double *c, const double *k, double t, const double *x, double most, double *d)
+{
+    double now[NAME_DOMAIN + 1];
+    int i, suspect = 0;
+    NAME_domain(c, k, t, x, now);
+    for (i = 0; i < NAME_DOMAIN; ++i) {
+        double from = fabs(d[i]), to = fabs(now[i]);
+        suspect |= !((d[i] > 0.0 && now[i] > 0.0) || (d[i] < 0.0 && now[i] < 0.0));
+        suspect |= most > 0.0 && (to > most * from || from > most * to);
+        d[i] = now[i];
+    }
+    return suspect;
+}
+#endif
+
 /* One step of the classical Runge-Kutta method of order four, from x at t; h may be negative. */
 GUEN_FUNCTION void NAME_rk4_step(
     const double *c, const double *k, const double *u, double t, const double *x, double h, double *end)
@@ -77,6 +95,10 @@ GUEN_FUNCTION int NAME_run(
 {
     double origin = *t, h = until < origin ? -size : size, index, count, next, end[NAME_STATES];
     int i;
+#ifdef GUEN_WATCHED
+    double d[NAME_DOMAIN + 1];
+    NAME_domain(c, k, origin, x, d);
+#endif
     if (!(size > 0.0 && guen_is_finite(size)))
         return 1;
     if (until == origin)
@@ -92,6 +114,10 @@ GUEN_FUNCTION int NAME_run(
         for (i = 0; i < NAME_STATES; ++i)
             if (!guen_is_finite(end[i]))
                 return 3;
+#ifdef GUEN_WATCHED
+        if (NAME_is_suspect(c, k, next, end, 2.0, d))
+            return 5;
+#endif
         for (i = 0; i < NAME_STATES; ++i)
             x[i] = end[i];
         *t = next;

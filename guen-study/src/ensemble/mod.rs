@@ -3,6 +3,7 @@
 //! What a trajectory is does not depend on its neighbours, on the number of threads or on the processor: lanes compute
 //! the bits of plain `f64`, and results are in the order of what was put in.
 
+mod device;
 mod modes;
 mod threads;
 
@@ -17,6 +18,8 @@ use guen_runtime::{
 
 use crate::progress::Progress;
 
+pub use device::{Device, DeviceFault, DeviceMethod, DeviceRun, OnDevice};
+pub use device::{KernelBatch, KernelEngine, KernelOutcome};
 use threads::in_turn;
 pub(crate) use threads::processors;
 

@@ -117,6 +117,40 @@ macro_rules! source {
     };
 }
 
+/// The trait `Sourced` of what the text of C has the rates of, with the numbers of states, constants, prepared values, and inputs where there are some.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! sourced {
+    ($([$($F:ident $N:literal)*])? $size:literal $constants:literal $hoisted:literal) => {
+        impl $(<$($F: $crate::Smooth<$N>),*>)? $crate::Sourced<$size> for Prepared<f64 $($(, $F)*)?> {
+            const SOURCE: $crate::Source = SOURCE;
+            const NUMBERS: ::core::primitive::usize = $constants + $hoisted;
+
+            fn numbers(&self) -> impl ::core::iter::Iterator<Item = ::core::primitive::f64> {
+                ::core::iter::Iterator::copied(::core::iter::Iterator::chain(
+                    self.constants.iter(),
+                    self.hoisted.iter(),
+                ))
+            }
+        }
+    };
+    ($([$($F:ident $N:literal)*])? $size:literal $constants:literal $hoisted:literal $inputs:literal) => {
+        impl $(<$($F: $crate::Smooth<$N>),*>)? $crate::Sourced<$size> for Driven<f64 $($(, $F)*)?> {
+            const SOURCE: $crate::Source = SOURCE;
+            const NUMBERS: ::core::primitive::usize = $constants + $hoisted + $inputs;
+
+            fn numbers(&self) -> impl ::core::iter::Iterator<Item = ::core::primitive::f64> {
+                let inputs: [::core::primitive::f64; $inputs] = ::core::convert::From::from(self.inputs);
+                let prepared = ::core::iter::Iterator::copied(::core::iter::Iterator::chain(
+                    self.system.constants.iter(),
+                    self.system.hoisted.iter(),
+                ));
+                ::core::iter::Iterator::chain(prepared, inputs)
+            }
+        }
+    };
+}
+
 /// A function that is never called, in which names refer to statics at their declarations: for editors.
 #[doc(hidden)]
 #[macro_export]

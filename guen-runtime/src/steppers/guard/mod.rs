@@ -16,10 +16,14 @@ mod schedule;
 mod watch;
 
 pub(in crate::steppers) use known::{TimeAndState, Watched};
+use runs::One;
 pub(in crate::steppers) use runs::{Each, MOST};
 pub(in crate::steppers) use watch::Watch;
 
+use crate::numbers::lanes::Mask;
 use crate::numbers::real::Real;
+use crate::steppers::driver::error::Cause;
+use crate::system::System;
 
 /// The limits that a run must not violate. A stepper checks these by default, on whatever the system tells in
 /// [`conserved`](crate::System::conserved), [`singularities`](crate::System::singularities) and
@@ -94,6 +98,54 @@ impl Guard {
         approach: f64::INFINITY,
         every: Some(u32::MAX),
     };
+
+    /// Checks a run that was made without a guard at its start and at some later states, in their order: all that a check looks at, but for
+    /// the errors of steps and the paces of functions that must not vanish. A fault that is over at the next of the states is not found.
+    ///
+    /// ```
+    /// use guen_runtime::{Cause, Invariants, System, steppers::Guard};
+    ///
+    /// struct Oscillator;
+    /// impl System<f64, 2> for Oscillator {
+    ///     fn rhs(&self, _t: f64, &[x, v]: &[f64; 2]) -> [f64; 2] {
+    ///         [v, -x]
+    ///     }
+    ///     fn conserved(&self, _t: f64, &[x, v]: &[f64; 2]) -> Invariants<f64> {
+    ///         let energy = (v * v + x * x) / 2.0;
+    ///         Invariants { energy: Some(energy), scale: energy, residual: 0.0, carried: 0.0 }
+    ///     }
+    /// }
+    /// let check = |states| Guard::default().check_states(&Oscillator, (0.0, &[1.0, 0.0]), states);
+    /// assert!(check([(2.0, [0.6, 0.8]), (9.0, [-0.8, 0.6])]).is_ok());
+    /// assert!(matches!(check([(2.0, [0.6, 0.9]), (9.0, [0.6, 0.8])]), Err(Cause::Energy { found: 2.0, .. })));
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// The cause with which a run would have ended that was checked at these states.
+    pub fn check_states<S, const N: usize>(
+        self,
+        system: &S,
+        start: (f64, &[f64; N]),
+        states: impl IntoIterator<Item = (f64, [f64; N])>,
+    ) -> Result<(), Cause>
+    where
+        S: System<f64, N> + ?Sized,
+    {
+        // Every state is as the end of a step.
+        let every = self.every.filter(|steps| *steps == u32::MAX).or(Some(1));
+        let start = TimeAndState { time: start.0, state: start.1 };
+        let mut watch = Watch::<f64, One, N>::new(Self { every, ..self }, system, 1, true, start)?;
+        let mut found = Ok(());
+        for (time, state) in states {
+            if watch.counts(1) {
+                let (none, now) = (|| [0.0; N], TimeAndState { time, state: &state });
+                watch.check(system, (None, none), now, Mask::all(1), |_, cause, _| found = Err(cause));
+            }
+            found?;
+        }
+        Ok(())
+    }
 
     pub(super) fn is_valid(&self) -> bool {
         let Self { energy, residual, carried, singularity, condition, step, approach, .. } = *self;
