@@ -243,6 +243,8 @@ covariance = pandas.read_csv(folder / "covariance.csv").set_index("column")
 assert abs(covariance.loc["theta", "eta3"] - frame["theta"][good].cov(frame["eta3"][good])) < 1e-12
 metadata = pyarrow.parquet.read_metadata(files[0]).metadata
 assert len(metadata[b"guen.digest"]) == 64 and b"name: hoop" in metadata[b"guen.sweep"]
+declaration = metadata[b"guen.declaration"].decode()
+assert len(declaration) == 16 and "declaration: " + declaration in metadata[b"guen.sweep"].decode().splitlines()
 print(f"pyarrow, pandas and polars read {len(frame)} rows, {(~good).sum()} of them faults")
 """
 
