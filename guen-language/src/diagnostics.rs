@@ -139,6 +139,17 @@ impl Faults {
         self.note_since(before, what, place);
     }
 
+    /// Keeps those of the faults that were reported since for which a condition holds, and which stand where none was before.
+    pub fn keep_since(&mut self, before: usize, keep: impl Fn(&Fault) -> bool) {
+        let at = |fault: &Fault| format!("{:?}", fault.span);
+        let known: BTreeSet<String> = self.faults[..before].iter().map(at).collect();
+        let mut index = 0;
+        self.faults.retain(|fault| {
+            index += 1;
+            index <= before || !known.contains(&at(fault)) && keep(fault)
+        });
+    }
+
     /// Whether a fault at this place is in the sink.
     pub fn has_at(&self, place: Span) -> bool {
         let at = format!("{place:?}");

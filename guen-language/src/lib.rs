@@ -13,6 +13,7 @@
 extern crate proc_macro;
 
 mod components;
+mod damage;
 pub mod derive;
 pub mod diagnostics;
 pub mod emit;
@@ -56,13 +57,13 @@ pub fn expand(tokens: TokenStream) -> TokenStream {
     if !paths.is_empty() {
         return components::gather(declaration.crate_path.as_ref(), "mechanical_system_with", &paths, tokens);
     }
-    finish(declaration, report)
+    finish(&tokens, declaration, report)
 }
 
 /// Expands one invocation of `mechanical_system!` to which the components that it uses have been added.
 pub fn expand_with(tokens: TokenStream) -> TokenStream {
     let components::Gathered { tokens, bundles } = components::split(tokens);
-    let (declaration, report) = parse::written(tokens);
+    let (declaration, report) = parse::written(tokens.clone());
     let Some(mut declaration) = declaration else {
         return report.to_compile_errors();
     };
@@ -70,11 +71,11 @@ pub fn expand_with(tokens: TokenStream) -> TokenStream {
     if declaration.imported.iter().any(|imported| imported.is_faulty) {
         // The faults are reported where the components are declared.
         let mut items = report.to_compile_errors();
-        let (declaration, _) = parse::unfolded(declaration, report);
+        let (declaration, _) = parse::unfolded(&tokens, declaration, report);
         items.extend(expand_outline(&declaration));
         return items;
     }
-    finish(declaration, report)
+    finish(&tokens, declaration, report)
 }
 
 /// Expands one invocation of `mechanical_component!`: the struct of its constants, and the macro that brings its tokens to the
@@ -88,9 +89,69 @@ pub fn expand_component_with(tokens: TokenStream) -> TokenStream {
     components::expand_with(tokens)
 }
 
-fn finish(declaration: syntax::Declaration, report: diagnostics::FaultReport) -> TokenStream {
-    let (declaration, report) = parse::unfolded(declaration, report);
+/// The most names of a declaration that is looked at again after a fault of its grammar or its loops: what is larger takes seconds.
+const MOST_NAMES: usize = 150;
+
+/// The most operations of such a declaration.
+const MOST_OPERATIONS: usize = 3_000;
+
+/// Adds to the faults that the parser found what else is wrong in a declaration, as far as it can be told beside them.
+///
+/// ```
+/// let tokens = "system Pendulum {
+///     constants { l > 0, g = 9.81 }
+///     coordinates { phi }
+///     parameters { omega == dot(phi); }
+///     kinetic_energy = 1/2*l^2*omega^2;
+///     potential_energy = -g*h*cos(phi);
+/// }";
+/// let tokens = tokens.parse().unwrap();
+/// let (declaration, report) = guen_language::parse::parse(proc_macro2::TokenStream::clone(&tokens));
+/// assert_eq!(report.faults().len(), 1);
+/// let report = guen_language::with_further_faults(&tokens, &declaration.unwrap(), report);
+/// assert!(report.faults()[1].message().starts_with("unknown name `h`"));
+/// ```
+pub fn with_further_faults(
+    tokens: &TokenStream,
+    declaration: &syntax::Declaration,
+    report: diagnostics::FaultReport,
+) -> diagnostics::FaultReport {
+    let damaged = damage::Damaged::new(tokens, declaration, &report);
+    let is_coordinates = |item: &syntax::Item| matches!(item, syntax::Item::Coordinates(_));
+    let names: usize = declaration.items.iter().map(|item| item.declared().len()).sum();
+    let mut waiting: Vec<&syntax::Expression> =
+        declaration.items.iter().flat_map(|item| item.expressions()).collect();
+    let mut size = 0;
+    while let Some(e) = waiting.pop().filter(|_| size <= MOST_OPERATIONS) {
+        size += 1;
+        waiting.extend(e.children());
+    }
+    if names > MOST_NAMES
+        || size > MOST_OPERATIONS
+        || damaged.is_beyond_names
+        || !declaration.items.iter().any(is_coordinates)
+    {
+        return report;
+    }
+    let ((), report) = collect(|faults| {
+        faults.absorb(report);
+        let before = faults.count();
+        if let Some(model) = model::resolved(declaration, damaged.damage, faults) {
+            derive::derive(model, faults);
+        }
+        faults.keep_since(before, |fault| !damaged.explains(fault));
+    });
+    report
+}
+
+fn finish(
+    tokens: &TokenStream,
+    declaration: syntax::Declaration,
+    report: diagnostics::FaultReport,
+) -> TokenStream {
+    let (declaration, report) = parse::unfolded(tokens, declaration, report);
     if !report.is_empty() {
+        let report = with_further_faults(tokens, &declaration, report);
         return with_outline(&declaration, &report);
     }
     let (derived, report) = collect(|faults| {

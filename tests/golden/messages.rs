@@ -11,7 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use guen_language::diagnostics::{FaultReport, POINTER, collect};
-use guen_language::{derive, emit, expand_outline, model, names, parse};
+use guen_language::{derive, emit, expand_outline, model, names, parse, with_further_faults};
 use proc_macro2::{Span, TokenStream, TokenTree};
 
 /// A file with a faulty declaration.
@@ -111,9 +111,12 @@ fn invocations(text: &str) -> Vec<TokenStream> {
 
 /// What the stages report of one invocation.
 fn reports(tokens: TokenStream) -> Vec<FaultReport> {
-    let (declaration, report) = parse::parse(tokens);
+    let (declaration, report) = parse::parse(tokens.clone());
+    let Some(declaration) = declaration else { return vec![report] };
+    if !report.is_empty() {
+        return vec![with_further_faults(&tokens, &declaration, report)];
+    }
     let mut reports = vec![report];
-    let Some(declaration) = declaration.filter(|_| reports[0].is_empty()) else { return reports };
     let (derived, report) = collect(|faults| {
         let model = model::resolve(&declaration, faults)?;
         derive::derive(model, faults)

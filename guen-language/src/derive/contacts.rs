@@ -72,6 +72,14 @@ pub(super) fn derive(
     derived
 }
 
+/// Reports what is wrong in the rows of contacts; nothing else is derived of them.
+pub(super) fn check(model: &mut Model<'_>, faults: &mut Faults) {
+    if let Some(contacts) = model.contacts.take() {
+        let _equations = equations::derive(model, &contacts, None, faults);
+        model.contacts = Some(contacts);
+    }
+}
+
 /// The equations at the values that a scene fixes; `None` after a fault.
 pub(super) fn at_values(
     model: &mut Model<'_>,

@@ -68,7 +68,8 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
     let mut derivation = derivation?;
     faults::report_missing_momenta(&mut model, &mut derivation, faults);
     faults::report_unknown_reactions(&model, &derivation, faults);
-    if faults.count() > before {
+    if faults.count() > before || model.is_partial {
+        contacts::check(&mut model, faults);
         return None;
     }
     derivation.restate_by_bodies(&mut model.bench);

@@ -80,6 +80,12 @@ fn is_worth_it(needed: &[bool]) -> bool {
 /// The number of places of a pattern that cost as much as an index.
 const ELEMENTS_PER_INDEX: usize = 2;
 
+/// The array and the index of an element as it is written.
+pub(super) fn indexed(name: &str) -> Option<(&str, usize)> {
+    let (array, index) = name.strip_suffix(']')?.split_once('[')?;
+    Some((array, index.parse().ok()?))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -110,10 +116,4 @@ mod tests {
         assert_eq!(statements, "");
         assert_eq!(locals, ["c[0]", "c[9]", "c[19]"]);
     }
-}
-
-/// The array and the index of an element as it is written.
-pub(super) fn indexed(name: &str) -> Option<(&str, usize)> {
-    let (array, index) = name.strip_suffix(']')?.split_once('[')?;
-    Some((array, index.parse().ok()?))
 }

@@ -306,6 +306,10 @@ impl Evaluator<'_> {
     /// The value of an expression.
     pub(super) fn value(&mut self, e: &Expression) -> Evaluated {
         match &e.kind {
+            // What is missing was reported by the parser.
+            ExpressionKind::Missing | ExpressionKind::Fold(_) if self.faults.count() > 0 => {
+                Err(self.faults.reported_before())
+            }
             ExpressionKind::Missing | ExpressionKind::Fold(_) => {
                 self.fail(Fault::new(e.span, "something is missing here"))
             }

@@ -37,6 +37,7 @@ pub use dimensions::{Units, momentum, reaction, residual};
 pub use rates::ChosenRates;
 pub(crate) use rates::nominal;
 pub use resolve::resolve;
+pub(crate) use resolve::resolved;
 pub(crate) use scenes::is_carried_form;
 
 /// A checked system.
@@ -95,6 +96,8 @@ pub struct Model<'a> {
     pub identifiers: Identifiers,
     /// The mechanical system.
     pub mechanics: Mechanics,
+    /// Whether a fault was found in what the motion does not need: nothing but further faults may be derived.
+    pub is_partial: bool,
     /// Whether the kinetic energy is more than the words of `kinetic_energy`: particles or bodies add to it.
     pub has_masses: bool,
     /// The word `kinetic_energy`, where the energy is given by a formula.
@@ -124,6 +127,16 @@ impl Identifiers {
 }
 
 impl Model<'_> {
+    /// Leaves out forces and outputs, of which some are missing.
+    fn keep_core(&mut self) {
+        let mechanics = [Some(&mut self.mechanics), self.contacts.as_mut().map(|c| &mut c.mechanics)];
+        for mechanics in mechanics.into_iter().flatten() {
+            let zero = self.bench.graph.zero();
+            mechanics.forces.iter_mut().for_each(|force| force.magnitude = zero);
+            mechanics.outputs.iter_mut().for_each(|output| *output = zero);
+        }
+    }
+
     /// A body whose mass or a moment of inertia is a negative number, or whose inertia in numbers no body can have.
     pub(crate) fn suspicious_body(&self) -> Option<&str> {
         let body = self.bodies.iter().find(|body| {

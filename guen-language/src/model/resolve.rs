@@ -29,33 +29,77 @@ use super::shapes::Shapes;
 use super::spatial::inner;
 use super::value::{BodyValue, Value};
 use super::{BodyEntry, ConstantEntry, Model, OutputEntry, SceneEntry, SymbolEntry};
+use crate::damage::Damage;
 use crate::diagnostics::{Fault, Faults};
 use crate::syntax::{
     Argument, ArgumentKind, Declaration, Definition, Expression, ExpressionKind, Force as WrittenForce,
     Instance, Item, Quantity, Scene, SectionKind,
 };
 
-/// Checks names, kinds and forms. `None` if a fault was reported that leaves no model.
+/// Checks names, kinds and forms. `None` if a fault was reported that leaves no model; after faults in what the motion does not need,
+/// such as outputs, forces and contacts, the model is partial.
 pub fn resolve<'a>(declaration: &'a Declaration, faults: &mut Faults) -> Option<Model<'a>> {
+    resolved(declaration, Damage::None, faults)
+}
+
+/// Checks a declaration of which something may be missing, as [`resolve`] does.
+pub(crate) fn resolved<'a>(
+    declaration: &'a Declaration,
+    damage: Damage,
+    faults: &mut Faults,
+) -> Option<Model<'a>> {
     let before = faults.count();
     let mut resolver = Resolver::new(declaration, faults);
     resolver.announce();
+    resolver.is_whole = damage == Damage::None;
+    resolver.is_core_sound = damage != Damage::Core && resolver.eval.faults.count() == before;
     for (place, item) in declaration.items.iter().enumerate() {
         let before = resolver.eval.faults.count();
         resolver.item(item);
+        if resolver.eval.faults.count() > before {
+            resolver.is_whole = false;
+            resolver.is_core_sound &= is_leaf(item);
+        }
         if let Some(origin) = declaration.origins.get(place).copied().flatten() {
             let Instance { path, component, place, .. } = &declaration.instances[origin];
             let what = format!("in `{}`, a `{}`, used", path.text(), component.name);
             resolver.eval.faults.of_instance(before, &what, *place);
         }
     }
-    let mut model = resolver.finish().filter(|_| faults.count() == before)?;
-    model.units = super::dimensions::units(declaration, faults);
-    (faults.count() == before).then_some(model)
+    let (is_core_sound, mut model) = resolver.finish();
+    if damage == Damage::None && faults.count() == before {
+        let model = model.as_mut()?;
+        model.units = super::dimensions::units(declaration, faults);
+    }
+    let mut model = model.filter(|_| is_core_sound)?;
+    model.is_partial = damage != Damage::None || faults.count() > before;
+    if model.is_partial {
+        model.keep_core();
+    }
+    Some(model)
+}
+
+/// Whether the motion does not need an item: what is wrong in it hides nothing that is wrong elsewhere.
+fn is_leaf(item: &Item) -> bool {
+    matches!(
+        item,
+        Item::Forces(_)
+            | Item::Switches(_)
+            | Item::Contacts(_)
+            | Item::Resets(_)
+            | Item::Modes(_)
+            | Item::Outputs(_)
+            | Item::Provide(_)
+            | Item::Scene(_)
+    )
 }
 
 struct Resolver<'a, 'f> {
     declaration: &'a Declaration,
+    /// Whether no fault was found so far, here or before.
+    is_whole: bool,
+    /// Whether none was found in what the motion needs.
+    is_core_sound: bool,
     eval: Evaluator<'f>,
     constants: Vec<ConstantEntry<'a>>,
     inputs: Vec<SymbolEntry<'a>>,
@@ -98,6 +142,8 @@ impl<'a, 'f> Resolver<'a, 'f> {
         let shapes = Shapes::new(&graph);
         Resolver {
             declaration,
+            is_whole: true,
+            is_core_sound: true,
             eval: Evaluator {
                 faults,
                 bench: Workbench::new(graph),

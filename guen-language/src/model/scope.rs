@@ -277,9 +277,11 @@ impl Scope {
         self.entries.get(text).and_then(|entry| entry.value.as_ref())
     }
 
-    /// Reports coordinates that nothing mentions: without them the number of forms means nothing.
-    pub(super) fn report_unused(&self, faults: &mut Faults) {
-        for text in self.unused().filter(|text| self.entries[*text].category == Category::Coordinate) {
+    /// Reports coordinates that nothing mentions: without them the number of forms means nothing. Names that faulty expressions mention
+    /// are used.
+    pub(super) fn report_unused(&self, mentioned: &BTreeSet<String>, faults: &mut Faults) {
+        let coordinates = self.unused().filter(|text| self.entries[*text].category == Category::Coordinate);
+        for text in coordinates.filter(|text| !mentioned.contains(*text)) {
             let fault = Fault::new(
                 self.entries[text].span,
                 format!("`{text}` is declared as a coordinate and never used"),

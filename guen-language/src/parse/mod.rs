@@ -34,6 +34,7 @@ mod units;
 
 use proc_macro2::TokenStream;
 
+use crate::damage::Damaged;
 use crate::diagnostics::{FaultReport, collect};
 use crate::syntax::{Component, Declaration, Expression};
 use crate::unfold::unfold;
@@ -42,9 +43,9 @@ use crate::unfold::unknown_names::{self, unknown_names};
 /// Parses the tokens of one invocation, and writes its loops out. With an empty report there is a declaration, and nothing in it is
 /// missing; otherwise there is one if at least the head `system Name { .. }` could be read.
 pub fn parse(tokens: TokenStream) -> (Option<Declaration>, FaultReport) {
-    let (declaration, report) = written(tokens);
+    let (declaration, report) = written(tokens.clone());
     let Some(declaration) = declaration else { return (None, report) };
-    let (declaration, report) = unfolded(declaration, report);
+    let (declaration, report) = unfolded(&tokens, declaration, report);
     (Some(declaration), report)
 }
 
@@ -54,12 +55,18 @@ pub(crate) fn written(tokens: TokenStream) -> (Option<Declaration>, FaultReport)
 }
 
 /// Writes loops and uses of components out; the faults of the parser are among those of the result.
-pub(crate) fn unfolded(declaration: Declaration, report: FaultReport) -> (Declaration, FaultReport) {
+pub(crate) fn unfolded(
+    tokens: &TokenStream,
+    declaration: Declaration,
+    report: FaultReport,
+) -> (Declaration, FaultReport) {
+    let damaged = Damaged::new(tokens, &declaration, &report);
     // What the parser left out may have declared any name.
     let unknown = if report.is_empty() { unknown_names(&declaration) } else { Vec::new() };
     collect(|faults| {
         faults.absorb(report);
         let (before, declaration) = (faults.count(), unfold(declaration, faults));
+        faults.keep_since(before, |fault| !damaged.explains(fault));
         if faults.count() > before {
             unknown_names::report(unknown, faults);
         }

@@ -70,8 +70,9 @@ fn without_loops(declaration: Declaration, counts: &[(&Name, i64)], faults: &mut
         let count = Count { name: Name::clone(name), value: Some(*value), is_used: true };
         unfolder.counts.insert(name.text.clone(), count);
     }
+    let before = unfolder.faults.count();
     unfolder.announce(&declaration);
-    unfolder.knows_entries = unfolder.faults.count() == 0;
+    unfolder.knows_entries = unfolder.faults.count() == before;
     unfolder.write(declaration)
 }
 

@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 /// The modules of the crate in the order of the pipeline. Each reads modules that stand before it; `parse` hands over a syntax
 /// tree, so nothing reads `parse` but the fronts, which are the root of the crate and `components`.
-const ORDER: [&str; 12] = [
+const ORDER: [&str; 13] = [
     "names",
     "limits",
     "diagnostics",
     "syntax",
+    "damage",
     "outline",
     "unfold",
     "parse",

@@ -20,6 +20,7 @@ mod nesting;
 mod one_mode;
 mod outline;
 mod painleve;
+mod pairs_of_faults;
 mod poles;
 mod random_declarations;
 mod rates;

@@ -195,7 +195,19 @@ impl<'a> Resolver<'a, '_> {
         };
         let when = condition(self, ClauseWord::When);
         let release = condition(self, ClauseWord::Release);
-        if self.eval.faults.count() > before {
+        // What stands on something faulty has no value, and is no fault of its own.
+        let is_there = |clause: &Clause| match clause.word {
+            ClauseWord::Gap | ClauseWord::Latch => gap.is_some(),
+            ClauseWord::Slip | ClauseWord::Grip => rows.len() > usize::from(gap.is_some()),
+            ClauseWord::Friction => friction.is_some(),
+            ClauseWord::Stiction => stiction.is_some(),
+            ClauseWord::Restitution => restitution.is_some(),
+            ClauseWord::Limit => limit.is_some(),
+            ClauseWord::Load => load.is_some() || loaded_by.is_some() || load_reaction.is_some(),
+            ClauseWord::When => when.is_some(),
+            ClauseWord::Release => release.is_some(),
+        };
+        if self.eval.faults.count() > before || !contact.clauses.iter().all(is_there) {
             return Err(self.eval.faults.reported_before());
         }
         let zero = self.eval.bench.graph.zero();

@@ -5,11 +5,19 @@ use crate::model::contact::ContactEntry;
 use crate::model::{Follower, SceneModes};
 
 impl<'a> Resolver<'a, '_> {
-    /// Puts the model together, out of what the items left.
-    pub(super) fn finish(mut self) -> Option<Model<'a>> {
-        let failed = self.eval.faults.count() > 0;
+    /// Puts the model together, out of what the items left, and says whether what the motion needs is sound.
+    pub(super) fn finish(self) -> (bool, Option<Model<'a>>) {
+        let mut is_core_sound = self.is_core_sound;
+        let model = self.put_together(&mut is_core_sound);
+        (is_core_sound, model)
+    }
+
+    fn put_together(mut self, is_core_sound: &mut bool) -> Option<Model<'a>> {
+        let failed = !*is_core_sound;
         let has_contacts = self.has_contacts();
-        let modes = if failed || self.declaration.in_mode.is_some() { None } else { self.modes() };
+        let modes = if self.declaration.in_mode.is_some() { None } else { self.modes() };
+        let before = self.eval.faults.count();
+        let missing = self.missing_contacts();
         let velocities = self.velocities.clone();
         let mut degrees = self.parameters.len();
         let has_energy = self.energy.is_some() || self.has_masses;
@@ -42,6 +50,7 @@ impl<'a> Resolver<'a, '_> {
             }
         }
         self.eval.report_assumed(None);
+        *is_core_sound &= self.eval.faults.count() == before;
         let mut scenes: Vec<SceneEntry<'a>> = Vec::new();
         for scene in self.written_scenes {
             let mut of_scene = SceneModes::Without;
@@ -53,7 +62,7 @@ impl<'a> Resolver<'a, '_> {
                 let entries: Vec<&ContactEntry<'_>> =
                     self.contacts.iter().map(|contact| &contact.entry).collect();
                 let found = contacts::modes_of_scene(
-                    &entries,
+                    (&entries, &missing),
                     &self.resets,
                     modes.as_deref(),
                     scene,
@@ -72,8 +81,9 @@ impl<'a> Resolver<'a, '_> {
             let entry = self.eval.scene(scene, self.declaration, &earlier, is_in_mode);
             scenes.extend(entry.map(|entry| SceneEntry { modes: of_scene, ..entry }));
         }
+        let before = self.eval.faults.count();
         if !failed {
-            // Counts, unused names and idle sections mean something only where everything else was understood.
+            // Counts and idle sections mean something only where everything that the motion needs was understood.
             let keyword = |kind: SectionKind| {
                 self.declaration.items.iter().find_map(|item| match item {
                     Item::Parameters(section) if kind == SectionKind::Parameters => Some(section.keyword),
@@ -85,11 +95,15 @@ impl<'a> Resolver<'a, '_> {
                 .or(keyword(SectionKind::Coordinates))
                 .unwrap_or(self.declaration.name.span());
             count::check(&mut self.eval, &raw, forms.as_deref(), &redundant, &velocities, idle, place);
-            self.eval.scope.report_unused(self.eval.faults);
+            let mentioned = if self.is_whole { BTreeSet::new() } else { mentioned(self.declaration) };
+            self.eval.scope.report_unused(&mentioned, self.eval.faults);
             if self.gravity.is_some() && self.weights.is_empty() {
                 report_idle_gravity(self.declaration, self.eval.faults);
             }
         }
+        *is_core_sound &= self.eval.faults.count() == before;
+        // A partial model has contacts without modes.
+        let modes = modes.or_else(|| (has_contacts && self.declaration.in_mode.is_none()).then(Vec::new));
         let (forms, written): (Vec<_>, Vec<_>) = forms?.into_iter().unzip();
         if forms.len() != self.coordinates.len() || !has_energy {
             return None;
@@ -240,6 +254,7 @@ impl<'a> Resolver<'a, '_> {
             coordinates: self.coordinates,
             forms: raw.into_iter().map(|form| form.entry).collect(),
             units: Default::default(),
+            is_partial: false,
             chosen,
             redundant,
             bodies: self.bodies,
@@ -262,6 +277,21 @@ impl<'a> Resolver<'a, '_> {
             kinetic_energy_span: self.energy.map(|energy| energy.keyword),
         })
     }
+}
+
+/// Every name in the expressions of a declaration, and coordinates by the names of their rates.
+fn mentioned(declaration: &Declaration) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for item in &declaration.items {
+        item.expressions().into_iter().for_each(|e| names_in(e, &mut found));
+    }
+    let rates: Vec<String> = found
+        .iter()
+        .filter_map(|name| name.strip_suffix(crate::names::RATE_SUFFIX))
+        .map(String::from)
+        .collect();
+    found.extend(rates);
+    found
 }
 
 /// The functions that the program supplies, in order.

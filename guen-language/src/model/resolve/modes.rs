@@ -11,6 +11,8 @@ use crate::syntax::{ModeStatement, Name, Path, Scene, Section, Step};
 /// The statements about some contacts, as far as they were read.
 struct Stated<'a, 'e> {
     entries: &'e [&'e ContactEntry<'a>],
+    /// The contacts of which something is wrong: nothing is said about them.
+    missing: &'e BTreeSet<String>,
     /// The states that each contact may have.
     states: Vec<Vec<usize>>,
     /// The statement of each contact that was read last: where its contact stands, and in which instance.
@@ -29,14 +31,14 @@ struct Never {
 /// The combinations of states of some contacts that the declaration leaves; `None` after a fault. `keyword` is the place of what
 /// is said of all contacts.
 pub(super) fn combinations<'a>(
-    entries: &[&ContactEntry<'a>],
+    (entries, missing): (&[&ContactEntry<'a>], &BTreeSet<String>),
     declaration: &'a Declaration,
     keyword: proc_macro2::Span,
     faults: &mut Faults,
 ) -> Option<Vec<Vec<usize>>> {
     let before = faults.count();
     let states = entries.iter().map(|entry| (0..entry.states().len()).collect()).collect();
-    let mut stated = Stated { entries, states, last: BTreeMap::new(), never: Vec::new() };
+    let mut stated = Stated { entries, missing, states, last: BTreeMap::new(), never: Vec::new() };
     let mut own = None;
     for (section, origin) in sections(declaration) {
         own = own.or(Some(section.keyword).filter(|_| origin.is_none()));
@@ -49,7 +51,7 @@ pub(super) fn combinations<'a>(
         }
     }
     let Stated { states, never, .. } = stated;
-    if faults.count() > before {
+    if faults.count() > before || !missing.is_empty() {
         return None;
     }
     // Counted before they are listed: contacts without a statement multiply quickly.
@@ -78,22 +80,23 @@ pub(super) fn combinations<'a>(
 
 /// The modes of a system that a scene has, where it says which; `None` after a fault.
 pub(super) fn of_scene<'a>(
-    entries: &[&ContactEntry<'a>],
-    modes: &[Vec<usize>],
+    (entries, missing): (&[&ContactEntry<'a>], &BTreeSet<String>),
+    modes: Option<&[Vec<usize>]>,
     scene: &'a Scene,
     faults: &mut Faults,
 ) -> Option<Vec<Vec<usize>>> {
     let before = faults.count();
     let keyword = scene.modes.first()?.keyword;
     let states = entries.iter().map(|entry| (0..entry.states().len()).collect()).collect();
-    let mut stated = Stated { entries, states, last: BTreeMap::new(), never: Vec::new() };
+    let mut stated = Stated { entries, missing, states, last: BTreeMap::new(), never: Vec::new() };
     let statements = scene.modes.iter().flat_map(|section| &section.entries);
     statements.for_each(|statement| stated.read(statement, None, faults));
     let Stated { states, never, .. } = stated;
     if faults.count() > before {
         return None;
     }
-    let mut left = modes.to_vec();
+    // A fault in the modes of the system was reported.
+    let mut left = modes?.to_vec();
     left.retain(|mode| mode.iter().zip(&states).all(|(state, states)| states.contains(state)));
     if left.is_empty() {
         faults.report(Fault::new(keyword, "no mode is left").note("the system has no mode of this kind"));
@@ -136,10 +139,14 @@ fn sections(declaration: &Declaration) -> Vec<(&Section<ModeStatement>, Option<u
 }
 
 impl<'a> Stated<'a, '_> {
+    fn find(&self, contact: &Name, faults: &mut Faults) -> Option<usize> {
+        if self.missing.contains(&contact.text) { None } else { find(self.entries, contact, faults) }
+    }
+
     fn read(&mut self, statement: &'a ModeStatement, origin: Option<usize>, faults: &mut Faults) {
         match statement {
             ModeStatement::States { contact, states } => {
-                let Some(place) = find(self.entries, contact, faults) else { return };
+                let Some(place) = self.find(contact, faults) else { return };
                 let mut found = Vec::new();
                 let before = self.last.insert(place, (contact, origin));
                 if let Some((first, _)) = before.filter(|(_, other)| *other == origin) {
@@ -173,7 +180,7 @@ impl<'a> Stated<'a, '_> {
             ModeStatement::Never { keyword, combination } => {
                 let mut pairs: Vec<(usize, Vec<usize>)> = Vec::new();
                 for (contact, state) in combination {
-                    let Some(place) = find(self.entries, contact, faults) else { continue };
+                    let Some(place) = self.find(contact, faults) else { continue };
                     if pairs.iter().any(|(known, _)| *known == place) {
                         faults.report(Fault::new(
                             contact.span(),

@@ -40,6 +40,18 @@ impl Resolver<'_, '_> {
         Ok(gap)
     }
 
+    /// Whether an expression has a parameter in it that is no velocity: a fault of the parameter, which is told with all forms.
+    fn has_faulty_parameter(&self, form: ExprId) -> bool {
+        let graph = &self.eval.bench.graph;
+        let velocity = Roles::of(Role::Velocity).or(Roles::of(Role::QuasiVelocity));
+        let symbols = graph.symbols_in(&[form]);
+        self.parameters.iter().map(|parameter| parameter.symbol).any(|parameter| {
+            let is_inside = graph.as_symbol(parameter).is_some_and(|symbol| symbols.contains(&symbol));
+            let meaning = self.eval.expansions.get(&parameter);
+            is_inside && meaning.is_some_and(|meaning| !graph.roles(*meaning).meets(velocity))
+        })
+    }
+
     /// The velocity along a contact: its components that do not vanish, each with its structure.
     pub(super) fn slip(&mut self, contact: &Contact, clause: &Clause) -> Evaluated<Along> {
         let word = clause.word.text();
@@ -82,7 +94,7 @@ impl Resolver<'_, '_> {
                 let text = format!("the {word} of `{name}` is not linear in the velocities");
                 return self.eval.fail(Fault::new(span, text).note(format!("`{term}` is not")));
             };
-            if !parts.on_velocities.is_empty() {
+            if !parts.on_velocities.is_empty() || self.has_faulty_parameter(form) {
                 kept.forms.push(form);
                 kept.shapes.push(shape);
                 kept.axes.extend(is_vector.then_some(axis));

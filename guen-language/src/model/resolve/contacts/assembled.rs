@@ -51,7 +51,7 @@ impl Resolver<'_, '_> {
         for (place, item) in declaration.items.iter().enumerate() {
             let is_own = declaration.origins.get(place).copied().flatten().is_none();
             match item {
-                Item::Modes(section) if self.contacts.is_empty() => {
+                Item::Modes(section) if !self.eval.scope.has_contacts() => {
                     let text = "there are no contacts that `modes` could speak of";
                     let fault = Fault::new(section.keyword, text);
                     self.eval.faults.report(fault.help("declare them: `contacts { name: gap = e; }`"));
@@ -68,8 +68,20 @@ impl Resolver<'_, '_> {
         }
         // Where instances alone have contacts, what is said of all of them is said of the system.
         let keyword = keyword.unwrap_or(declaration.name.span());
+        let missing = self.missing_contacts();
         let entries: Vec<&ContactEntry<'_>> = self.contacts.iter().map(|contact| &contact.entry).collect();
-        super::super::modes::combinations(&entries, declaration, keyword, self.eval.faults)
+        let known = (&entries[..], &missing);
+        super::super::modes::combinations(known, declaration, keyword, self.eval.faults)
+    }
+
+    /// The contacts of which something is wrong.
+    pub(in crate::model::resolve) fn missing_contacts(&self) -> BTreeSet<String> {
+        let declared = self.declaration.items.iter().flat_map(|item| match item {
+            Item::Contacts(section) => &section.entries[..],
+            _ => &[],
+        });
+        let known = |name: &str| self.contacts.iter().any(|contact| contact.entry.name.text == name);
+        declared.map(|contact| contact.name.text.clone()).filter(|name| !known(name)).collect()
     }
 }
 
@@ -83,7 +95,7 @@ pub(super) fn value_of_switch(graph: &mut Graph, function: ExprId) -> ExprId {
 
 /// The modes of a scene of a system with contacts or switches; `None` after a fault.
 pub(in crate::model::resolve) fn modes_of_scene(
-    entries: &[&ContactEntry<'_>],
+    (entries, missing): (&[&ContactEntry<'_>], &BTreeSet<String>),
     resets: &[ResetEntry<'_>],
     modes: Option<&[Vec<usize>]>,
     scene: &Scene,
@@ -95,11 +107,10 @@ pub(in crate::model::resolve) fn modes_of_scene(
         faults.report(fault.help("run the system itself"));
         return None;
     }
-    // A fault in the modes of the system was reported.
-    let modes = modes?;
     let left = match scene.modes.is_empty() {
-        true => modes.to_vec(),
-        false => super::super::modes::of_scene(entries, modes, scene, faults)?,
+        // A fault in the modes of the system was reported.
+        true => modes?.to_vec(),
+        false => super::super::modes::of_scene((entries, missing), modes, scene, faults)?,
     };
     let [mode] = &left[..] else { return Some(SceneModes::Several(left)) };
     let keyword = scene.modes.first().map_or(scene.keyword, |section| section.keyword);

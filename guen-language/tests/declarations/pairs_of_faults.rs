@@ -1,0 +1,189 @@
+//! Two faults give two errors: every pair of single faults of different entries, put into one declaration in which nothing else is wrong.
+
+use guen_language::diagnostics::collect;
+use guen_language::{derive, model, parse, with_further_faults};
+
+use crate::common::by_two_threads;
+
+/// A declaration with an entry of every section that a fault can be in.
+const SOUND: &str = "system Cart {
+    count n = 2;
+    constants { m > 0, a > 0, J > 0, mu >= 0, e in 0..1 = 0, g = 9.81, k[n] > 0 }
+    inputs { push, pull }
+    coordinates { x, z, phi, y, s[n] }
+    let height = z - a;
+    fn weight(r) = m*g*r;
+    parameters { u = dot(x); w = dot(z); spin = dot(phi); for i in 0..n { v[i] = dot(s[i]); } }
+    constraints { guide: dot(y) = u; }
+    kinetic_energy = m/2*(u^2 + w^2 + dot(y)^2) + J/2*spin^2 + sum(i in 0..n: m/2*v[i]^2);
+    potential_energy = weight(z) + sum(i in 0..n: k[i]/2*s[i]^2);
+    component Foot(level: scalar, ahead: scalar) {
+        constants { rubber > 0 }
+        contacts { sole: gap = level, slip = ahead, friction = rubber; }
+    }
+    use Foot as left { level: z - x, ahead: u }
+    states { dot(heat) = u^2 - heat; }
+    forces { push along u; -mu*w along w; for i in 0..n { -pull*v[i] along v[i]; } }
+    switches { ice: x - 5; }
+    contacts {
+        floor: gap = height, slip = u - a*spin, friction = mu*(1 - ice), restitution = e;
+        wall: gap = 9 - x;
+        axle: grip = spin, limit = m;
+    }
+    modes { left.sole: open; axle: stick; never floor.stick with wall.closed; }
+    outputs { power = push*u; force = reaction(wall); }
+    scene Low { fix g = 1; track x; provide power; }
+}";
+
+/// The part of a declaration that a fault is in.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Part {
+    /// What the motion needs: without it nothing can be derived.
+    Core,
+    /// What it does not need.
+    Leaf,
+    /// A fault that the derivation finds, in a core that is sound.
+    Derived,
+    /// One that leaves no equations of motion.
+    Singular,
+}
+
+use Part::{Core, Derived, Leaf, Singular};
+
+/// The part, what is right, what is wrong, and how the message begins.
+const FAULTS: [(Part, &str, &str, &str); 33] = [
+    // The grammar.
+    (Core, "inputs { push, pull }", "inputs { push pull }", "expected"),
+    (Core, "spin = dot(phi);", "spin == dot(phi);", "expected `=`, found `==`"),
+    (Core, "= u^2 - heat;", "= u^2 - ;", "expected"),
+    (Core, "fn weight(r) =", "fn weight(r)", "expected"),
+    (Leaf, "power = push*u;", "power push*u;", "expected"),
+    (Leaf, "friction = mu*(1 - ice)", "frction = mu*(1 - ice)", "unknown word `frction`"),
+    (Leaf, "push along u;", "push alng u;", "expected"),
+    (Leaf, "track x;", "trak x;", ""),
+    // Loops and components.
+    (Leaf, "along v[i];", "along v[i + 1];", "`v[2]` is out of range"),
+    (Core, "level: z - x, ahead: u", "level: z - x", ""),
+    (Core, "sum(i in 0..n: m/2*v[i]^2)", "sum(i in 0..n: m/2*v[i]^2*i)", ""),
+    // Names and kinds.
+    (Core, "let height = z - a;", "let height = z - b;", "unknown name `b`"),
+    (Core, "guide: dot(y) = u;", "guide: dot(y) = u^2;", "constraint `guide` is not"),
+    (
+        Core,
+        "sum(i in 0..n: k[i]/2*s[i]^2)",
+        "sum(i in 0..n: k[i]/2*v[i]^2)",
+        "the force function cannot depend",
+    ),
+    (Core, "J/2*spin^2", "J/2*spin^3", "the kinetic energy is not quadratic"),
+    (Core, "e in 0..1 = 0", "e in 0..1 = 2", ""),
+    (Core, "w = dot(z);", "w = z;", "parameter `w` has no velocity"),
+    (Leaf, "-mu*w along w;", "-mu*w along z;", "what follows `along` is a velocity"),
+    (Leaf, "ice: x - 5;", "ice: 5;", "the switch `ice` never changes"),
+    (Leaf, "gap = 9 - x;", "gap = 9 - u;", "the gap of `wall` depends on a velocity"),
+    (Leaf, "limit = m;", "limit = -m;", "the limit of `axle` is below zero"),
+    (Leaf, "axle: stick;", "axle: open;", "`axle` has no state `open`"),
+    (Leaf, "with wall.closed;", "with wal.closed;", "unknown contact `wal`"),
+    (Leaf, "force = reaction(wall);", "force = reaction(wal);", "unknown"),
+    (Leaf, "power = push*u;", "power = push*uu;", "unknown name `uu`"),
+    (Leaf, "fix g = 1;", "fix gg = 1;", ""),
+    (Leaf, "track x;", "track xx;", ""),
+    (Leaf, "provide power;", "provide powr;", ""),
+    (Leaf, "restitution = e;", "restitution = e + 1;", "restitution `e + 1` of `floor` may lie outside"),
+    (Leaf, "friction = rubber;", "friction = -rubber;", "the friction of `left.sole` is below zero"),
+    // The derivation.
+    (Singular, "J/2*spin^2", "0*spin^2", "cannot solve for the accelerations"),
+    (Derived, "slip = u - a*spin", "slip = w", "the slip of `floor` is the rate of its gap"),
+    (Derived, "gap = 9 - x;", "gap = y - x;", "the gap of `wall` never changes"),
+];
+
+/// The messages for a declaration.
+fn messages(text: &str) -> Vec<String> {
+    let tokens: proc_macro2::TokenStream = text.parse().expect("tokens");
+    let (declaration, report) = parse::parse(tokens.clone());
+    let declaration = declaration.expect("a head");
+    let report = if report.is_empty() {
+        collect(|faults| derive::derive(model::resolve(&declaration, faults)?, faults).map(|_| ())).1
+    } else {
+        with_further_faults(&tokens, &declaration, report)
+    };
+    report.faults().iter().map(|fault| fault.message().to_owned()).collect()
+}
+
+fn with(faults: &[usize]) -> String {
+    let mut text = SOUND.to_owned();
+    for fault in faults {
+        let (_, right, wrong, _) = FAULTS[*fault];
+        assert_eq!(text.matches(right).count(), 1, "`{right}` in\n{text}");
+        text = text.replacen(right, wrong, 1);
+    }
+    text
+}
+
+/// Faults in tokens that do not balance are not told by the parser.
+fn is_balanced(fault: usize) -> bool {
+    let (_, _, wrong, _) = FAULTS[fault];
+    wrong.matches('(').count() == wrong.matches(')').count()
+}
+
+/// The place of the statement that a text begins in.
+fn statement(text: &str) -> usize {
+    let before = SOUND.split(text).next().unwrap_or_default();
+    before.matches(';').count()
+}
+
+#[test]
+fn a_fault_gives_one_error() {
+    assert_eq!(messages(SOUND), [""; 0]);
+    let mut wrong = Vec::new();
+    for fault in (0..FAULTS.len()).filter(|fault| is_balanced(*fault)) {
+        let (.., message) = FAULTS[fault];
+        let found = messages(&with(&[fault]));
+        if found.len() != 1 || !found[0].starts_with(message) {
+            wrong.push(format!("{:?}: {found:?}", FAULTS[fault]));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn two_faults_give_two_errors() {
+    let usable: Vec<usize> = (0..FAULTS.len()).filter(|fault| is_balanced(*fault)).collect();
+    let alone: Vec<Vec<String>> = by_two_threads(&usable, |fault| messages(&with(&[*fault])));
+    let mut pairs = Vec::new();
+    for (i, first) in usable.iter().enumerate() {
+        for (j, second) in usable.iter().enumerate().take(i) {
+            let (_, one, wrong, _) = FAULTS[*first];
+            let (_, other, also_wrong, _) = FAULTS[*second];
+            let is_same = statement(one) == statement(other) || wrong == also_wrong;
+            // Nothing is said of the states of a contact that is faulty.
+            let of_axle = [one, other].iter().all(|text| ["axle: stick;", "limit = m;"].contains(text));
+            if !is_same && !of_axle {
+                pairs.push((i, j));
+            }
+        }
+    }
+    assert!(pairs.len() > 400, "{}", pairs.len());
+    let found = by_two_threads(&pairs, |(i, j)| messages(&with(&[usable[*i], usable[*j]])));
+    let mut wrong = Vec::new();
+    for ((i, j), found) in pairs.iter().zip(found) {
+        let parts = [FAULTS[usable[*i]].0, FAULTS[usable[*j]].0];
+        let needed = |part: Part| match part {
+            Derived => parts.iter().any(|other| matches!(other, Core | Singular)),
+            Singular => parts.contains(&Core),
+            Core | Leaf => false,
+        };
+        let is_underived = parts.into_iter().any(needed);
+        // Names that nothing declares are told of the system where loops cannot be written out.
+        let begin = |message: &str| message.split(" in ").next().map(String::from);
+        let of_one = |fault: usize| {
+            let message = alone[fault].first();
+            message.is_some_and(|message| found.iter().any(|other| begin(other) == begin(message)))
+        };
+        let is_told = |fault: usize| of_one(fault) || needed(FAULTS[usable[fault]].0);
+        let count = if is_underived { 1 } else { 2 };
+        if found.len() != count || !is_told(*i) || !is_told(*j) {
+            wrong.push(format!("{:?}\n{:?}\n    {found:?}", FAULTS[usable[*i]], FAULTS[usable[*j]]));
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {}\n{}", wrong.len(), pairs.len(), wrong.join("\n"));
+}
