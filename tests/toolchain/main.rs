@@ -14,3 +14,4 @@ mod no_std;
 mod panics;
 mod rustdoc;
 mod source;
+mod taylor_source;

@@ -200,7 +200,7 @@ int main(int count, char **argument)
 "#;
 
 /// Compiles a text of C, in which every warning is an error.
-fn compile(text: &str, name: &str) -> PathBuf {
+pub(crate) fn compile(text: &str, name: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("guen-source-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(folder.join("pendulum.h"), pendulum::SOURCE.to_string()).unwrap();
@@ -254,7 +254,7 @@ fn answers(system: &str, lines: &[Vec<f64>]) -> Vec<String> {
 }
 
 /// The bits of a state as the program prints them; all NaN are one.
-fn bits(state: &[f64]) -> String {
+pub(crate) fn bits(state: &[f64]) -> String {
     let word = |x: &f64| if x.is_nan() { "nan ".to_owned() } else { format!("{:x} ", x.to_bits()) };
     state.iter().map(word).collect()
 }

@@ -3,13 +3,16 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use guen_symbolic::{Function, Instruction, Multivariate, Operation, Rational, Value};
+use guen_symbolic::{
+    Function, Instruction, Multivariate, Operation, Rational, SeriesProgram, SymbolId, Value,
+};
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::code::{Loads, leading_part};
 use super::functions::Places;
 use super::layout::{Layout, variable_name};
+use super::series::{Dialect, Recurrences};
 use crate::derive::{Subject, function};
 use crate::names::module_name;
 
@@ -21,10 +24,11 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, is_outline: bool
     let name = name(subject);
     let program = if is_outline { String::new() } else { program(&name, subject, layout) };
     let (steps, adaptive) = (subject.level.steps_in_c(), subject.level.steps_adapt_in_c());
+    let series = adaptive && subject.level.series.is_some();
     let Layout { size, constants, hoisted, inputs, .. } = layout;
     let held = (*inputs > 0).then_some(inputs);
     quote! {
-        __guen::source!(#name, #program, #steps, #adaptive);
+        __guen::source!(#name, #program, #steps, #adaptive, #series);
         __guen::sourced!(#size #constants #hoisted #held);
     }
 }
@@ -50,7 +54,7 @@ fn identifier(name: &str) -> String {
     letters.collect()
 }
 
-/// The sizes and places, `prepare`, the right-hand side, and the functions that must not vanish.
+/// The sizes and places, `prepare`, the right-hand side, the functions that must not vanish, and the series where it is provided.
 fn program(name: &str, subject: &Subject<'_, '_>, layout: &Layout) -> String {
     let Subject { model, level, .. } = subject;
     let places = Places::new(subject, false);
@@ -95,7 +99,96 @@ fn program(name: &str, subject: &Subject<'_, '_>, layout: &Layout) -> String {
     if let Some(domain) = domain {
         text += &body(&domain.instructions, &domain.outputs, "d", &places);
     }
-    text + "}\n"
+    text += "}\n";
+    if let Some(series) = level.series.as_ref().filter(|_| level.steps_adapt_in_c()) {
+        text += &series_function(name, &series.held, &places, layout);
+    }
+    text
+}
+
+/// The coefficients of the motion: statements for order zero, then a loop over the orders.
+fn series_function(name: &str, series: &SeriesProgram, places: &Places, layout: &Layout) -> String {
+    let recurrences = Recurrences::new(series, layout.size, &C(places));
+    let [begin, next] = recurrences.in_order();
+    let Recurrences { rates, next_rates, kept, now, pairs, .. } = recurrences;
+    let (variables, list, count) = (rates.len(), now.len(), pairs.len());
+    let assigned = |array: &str, values: &[String]| -> String {
+        values.iter().enumerate().map(|(i, value)| format!("    {array}[{i}] = {value};\n")).collect()
+    };
+    let factors: Vec<String> = pairs.iter().flatten().map(usize::to_string).collect();
+    // C has no empty arrays.
+    let [states, list_length, sums, kept_length] = [variables, list, count, kept.len()].map(|n| n.max(1));
+    let factors = if factors.is_empty() { "0, 0".to_owned() } else { factors.join(", ") };
+    format!(
+        "\n/* The coefficients x[m] of the motion from the state s at time t up to an order, times scale^m. */\n\
+         GUEN_FUNCTION void {name}_series(\n    const double *c, const double *k, double t, const double *s, const double *u, double scale, int order,\n\
+         \x20   double x[][{name}_STATES])\n{{\n    static const unsigned short pairs[{}] = {{ {factors} }};\n\
+         \x20   double factors[{list_length}][16] = {{ {{ 0.0 }} }}, sums[{sums}][40] = {{ {{ 0.0 }} }}, now[{list_length}] = {{ 0.0 }};\n\
+         \x20   double f[{states}], y[{states}], z[{kept_length}] = {{ 0.0 }};\n    int i, m;\n    (void)c;\n    (void)k;\n    (void)t;\n    (void)u;\n    (void)z;\n\
+         \x20   for (i = 0; i < {name}_STATES; ++i)\n        x[0][i] = s[i];\n{begin}{}{}\
+         \x20   for (m = 1; m <= order; ++m) {{\n    const double count = (double)m, part = 1.0 / count, step = scale * part;\n\
+         \x20   for (i = 0; i < {variables}; ++i)\n        y[i] = f[i] * step;\n\
+         \x20   for (i = 0; i < {name}_STATES; ++i)\n        x[m][i] = y[i];\n    if (m == order)\n        break;\n{next}{}{}\
+         \x20   guen_spread(factors, sums, pairs, {count}, {list}, now, m, order);\n    }}\n}}\n",
+        2 * sums,
+        assigned("f", &rates),
+        assigned("z", &kept),
+        assigned("f", &next_rates),
+        assigned("now", &now),
+    )
+}
+
+/// The dialect of C.
+struct C<'a>(&'a Places);
+
+impl Dialect for C<'_> {
+    fn number(&self, value: &Rational) -> String {
+        number(value)
+    }
+
+    fn pi(&self) -> String {
+        format!("{:?}", std::f64::consts::PI)
+    }
+
+    fn symbol(&self, symbol: SymbolId) -> String {
+        self.0.symbol(symbol)
+    }
+
+    fn call(&self, function: Function, argument: &str) -> String {
+        call(function, argument)
+    }
+
+    fn apply(&self, function: Multivariate, arguments: &[String]) -> String {
+        format!("{}({})", of_several(function), arguments.join(", "))
+    }
+
+    fn reciprocal(&self, value: &str) -> String {
+        format!("1.0 / ({value})")
+    }
+
+    fn doubled(&self, product: &str) -> String {
+        format!("({product} + {product})")
+    }
+
+    fn sum(&self, place: usize) -> String {
+        format!("sums[{place}][m & 31]")
+    }
+
+    fn variable(&self, place: usize) -> String {
+        format!("y[{place}]")
+    }
+
+    fn time(&self) -> String {
+        "m == 1 ? scale : 0.0".to_owned()
+    }
+
+    fn define(&self, name: &str, value: &str) -> String {
+        format!("    const double {name} = {value};\n")
+    }
+
+    fn define_both(&self, [sine, cosine]: [&str; 2], angle: &str) -> String {
+        format!("    double {sine}, {cosine};\n    guen_sincos({angle}, &{sine}, &{cosine});\n")
+    }
 }
 
 /// The places in an array, as an enumeration.

@@ -41,24 +41,27 @@ GUEN_FUNCTION int NAME_is_finite(const double *x)
     return finite;
 }
 
+/* A first step that moves x by about a hundredth of its size, at most the longest one. */
+GUEN_FUNCTION double NAME_first_guess(const double *x, const double *slope, const double *w, double longest)
+{
+    double slopes = NAME_squares(slope, w), states = NAME_squares(x, w);
+    if (slopes <= 1e-10 || states <= 1e-10)
+        return fmin(1e-6, longest);
+    if (guen_is_finite(slopes) && guen_is_finite(states))
+        return fmin(0.01 * sqrt(states / slopes), longest);
+    return fmin(0.01 * (NAME_size(x, w) / NAME_size(slope, w)), longest);
+}
+
 /* A first step from x at t over a span, where the slope is `slope`: one of explicit Euler's method tells how fast that changes. */
 GUEN_FUNCTION double NAME_first_step(
     const double *c, const double *k, const double *u, double t, const double *x, const double *slope, double span,
     guen_adaptive *method)
 {
-    double w[NAME_STATES], at[NAME_STATES], ahead[NAME_STATES], longest = fabs(span), slopes, states, slope_size, guess, h, size, step;
+    double w[NAME_STATES], at[NAME_STATES], ahead[NAME_STATES], longest = fabs(span), slope_size, guess, h, size, step;
     int i;
     NAME_tolerances(method, x, x, w);
-    slopes = NAME_squares(slope, w);
-    states = NAME_squares(x, w);
     slope_size = NAME_size(slope, w);
-    if (slopes <= 1e-10 || states <= 1e-10)
-        guess = 1e-6;
-    else if (guen_is_finite(slopes) && guen_is_finite(states))
-        guess = 0.01 * sqrt(states / slopes);
-    else
-        guess = 0.01 * (NAME_size(x, w) / slope_size);
-    guess = fmin(guess, longest);
+    guess = NAME_first_guess(x, slope, w, longest);
     h = copysign(guess, span);
     for (i = 0; i < NAME_STATES; ++i)
         at[i] = h * slope[i] + x[i];

@@ -9,6 +9,7 @@ pub use kernel::{Kernel, KernelMethod};
 pub use sourced::Sourced;
 
 use crate::steppers::explicit::tableau::Tableau;
+use crate::steppers::taylor;
 
 /// The text that the programs of all systems share.
 const ELEMENTARY: &str = include_str!("elementary.c");
@@ -16,6 +17,10 @@ const ELEMENTARY: &str = include_str!("elementary.c");
 const STEPPERS: &str = include_str!("steppers.c");
 /// DOP853, which follows.
 const ADAPTIVE: &str = include_str!("adaptive.c");
+
+/// Functions of series, and Taylor's method, where there is one.
+const SERIES: &str = include_str!("series.c");
+const TAYLOR: &str = include_str!("taylor.c");
 
 /// The program of a system as C99, which `Display` writes: a header without includes beyond `math.h`.
 ///
@@ -31,6 +36,8 @@ const ADAPTIVE: &str = include_str!("adaptive.c");
 /// | `name_rk4_step`, `name_rk8_step` | one step of [`Rk4`](crate::steppers::Rk4) or [`Rk8`](crate::steppers::Rk8) |
 /// | `name_rk4`, `name_rk8` | steps of one size up to a time |
 /// | `name_dop853` | a run of [`Dop853`](crate::steppers::Dop853) with samples |
+/// | `name_series(c, k, t, s, u, scale, order, x)` | the coefficients `x[m]` of the motion, times `scale^m`; with `provide taylor;` |
+/// | `name_taylor` | a run of [`Taylor`](crate::steppers::Taylor) with samples; with `provide taylor;` |
 ///
 /// Sums, products, quotients, square roots, sines and cosines have the bits that they have in Rust, and so have the steps of programs
 /// made of them; other functions are those of the platform's `math.h`. Compile with `-std=c99` or
@@ -42,7 +49,7 @@ const ADAPTIVE: &str = include_str!("adaptive.c");
 ///
 /// ```
 /// use guen_runtime::Source;
-/// let source = Source { name: "fall", program: "/* rates */\n", steps: false, adaptive: false };
+/// let source = Source { name: "fall", program: "/* rates */\n", steps: false, adaptive: false, series: false };
 /// assert!(source.to_string().starts_with("/* fall: "));
 /// assert!(source.to_string().ends_with("/* rates */\n\n#endif\n"));
 /// ```
@@ -56,6 +63,8 @@ pub struct Source {
     pub steps: bool,
     /// Whether DOP853 is one of them: at [switches](crate::System::switches) Rust begins its steps anew.
     pub adaptive: bool,
+    /// Whether the program has the series of the motion, and so Taylor's method is one of the steppers.
+    pub series: bool,
 }
 
 impl fmt::Display for Source {
@@ -66,12 +75,16 @@ impl fmt::Display for Source {
             "/* {name}: equations of motion, written by guen. Compile with -std=c99 or -ffp-contract=off. */"
         )?;
         writeln!(f, "#ifndef GUEN_SYSTEM_{name}\n#define GUEN_SYSTEM_{name}\n")?;
-        writeln!(f, "{ELEMENTARY}\n{program}")?;
+        let series = if self.series { SERIES } else { "" };
+        writeln!(f, "{ELEMENTARY}\n{series}{program}")?;
         if self.steps {
             let tableau = Tableau::new();
             self.fill(STEPPERS, &tableau, None, f)?;
             if self.adaptive {
                 self.fill(ADAPTIVE, &tableau, None, f)?;
+                if self.series {
+                    self.fill(TAYLOR, &tableau, None, f)?;
+                }
             }
         }
         f.write_str("#endif\n")
@@ -83,7 +96,7 @@ impl Source {
     ///
     /// ```
     /// use guen_runtime::{KernelMethod, Source};
-    /// let source = Source { name: "fall", program: "/* rates */\n", steps: true, adaptive: false };
+    /// let source = Source { name: "fall", program: "/* rates */\n", steps: true, adaptive: false, series: false };
     /// let kernel = source.kernel(KernelMethod::Rk4).unwrap();
     /// assert_eq!(kernel.entry().to_string(), "fall_motions");
     /// assert!(kernel.to_string().contains("GUEN_KERNEL void fall_motions("));
@@ -118,7 +131,9 @@ impl Source {
                 "ERROR3_WEIGHTS" => numbers(f, tableau.error_weights()[1].iter())?,
                 "DENSE_NODES" => numbers(f, tableau.dense_nodes().iter())?,
                 "DENSE_WEIGHTS" => numbers(f, tableau.dense_rows().into_iter().flatten())?,
-                _ => numbers(f, tableau.dense_terms().iter().flatten())?,
+                "DENSE_TERMS" => numbers(f, tableau.dense_terms().iter().flatten())?,
+                "ORDER_TOLERANCES" => numbers(f, taylor::order_tolerances().iter())?,
+                _ => numbers(f, [taylor::inside_logarithm()].iter())?,
             }
             rest = after;
         }
@@ -127,7 +142,7 @@ impl Source {
 }
 
 /// The words that stand for something else.
-const PLACES: [&str; 11] = [
+const PLACES: [&str; 13] = [
     "NAME",
     "STEPPER",
     "EVALUATIONS",
@@ -139,6 +154,8 @@ const PLACES: [&str; 11] = [
     "DENSE_NODES",
     "DENSE_WEIGHTS",
     "DENSE_TERMS",
+    "ORDER_TOLERANCES",
+    "INSIDE_LOGARITHM",
 ];
 
 /// The text before the first place, the place, and the text behind it.

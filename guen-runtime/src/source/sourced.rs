@@ -29,6 +29,7 @@ use crate::system::System;
 ///             {\n    (void)c;\n    (void)k;\n    (void)t;\n    (void)s;\n    (void)d;\n}\n",
 ///         steps: true,
 ///         adaptive: true,
+///         series: false,
 ///     };
 ///     const NUMBERS: usize = 1;
 ///

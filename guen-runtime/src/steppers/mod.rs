@@ -36,7 +36,7 @@ mod implicit;
 pub(crate) mod root;
 mod settings;
 mod step_size;
-mod taylor;
+pub(crate) mod taylor;
 
 pub use driver::dense::{Dense, Interpolant};
 pub use driver::error::{Cause, IntegrationError, Setting};

@@ -110,10 +110,15 @@ macro_rules! text_of_report {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! source {
-    ($name:literal, $program:literal, $steps:literal, $adaptive:literal) => {
+    ($name:literal, $program:literal, $steps:literal, $adaptive:literal, $series:literal) => {
         /// The right-hand side as a text of C, which `Display` writes: a header without includes beyond `math.h`.
-        pub const SOURCE: $crate::Source =
-            $crate::Source { name: $name, program: $program, steps: $steps, adaptive: $adaptive };
+        pub const SOURCE: $crate::Source = $crate::Source {
+            name: $name,
+            program: $program,
+            steps: $steps,
+            adaptive: $adaptive,
+            series: $series,
+        };
     };
 }
 

@@ -151,6 +151,30 @@ impl<R: Ordered> Taylor<R> {
 /// The least order that a tolerance leads to.
 const LOWEST_DEFAULT: usize = 8;
 
+/// The loosest tolerances for which the order is at least 9, 10 and so on: for texts in other
+/// languages, whose logarithms have other last digits.
+pub(crate) fn order_tolerances() -> [f64; HIGHEST_ORDER - LOWEST_DEFAULT] {
+    core::array::from_fn(|place| {
+        let reaches = |tolerance: f64| {
+            Taylor::<f64>::new(tolerance, tolerance)
+                .checked_order()
+                .is_ok_and(|order| order > LOWEST_DEFAULT + place)
+        };
+        // Doubles are in the order of their bits.
+        let (mut tight, mut loose) = (f64::MIN_POSITIVE.to_bits(), f64::MAX.to_bits());
+        while loose - tight > 1 {
+            let middle = tight.midpoint(loose);
+            if reaches(f64::from_bits(middle)) { tight = middle } else { loose = middle }
+        }
+        f64::from_bits(tight)
+    })
+}
+
+/// The binary logarithm of the place within a step at which rates are compared.
+pub(crate) fn inside_logarithm() -> f64 {
+    libm::log2(defect::INSIDE)
+}
+
 impl<R: Ordered, S: TaylorSeries<R, N> + ?Sized, const N: usize> Method<R, S, N> for Taylor<R> {
     type Run<'a> = Run<'a, R, N>;
 

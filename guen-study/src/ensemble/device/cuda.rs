@@ -164,6 +164,7 @@ mod tests {
                 {\n    (void)c;\n    (void)k;\n    (void)t;\n    (void)s;\n    (void)d;\n}\n",
             steps: true,
             adaptive: true,
+            series: false,
         };
         const NUMBERS: usize = 2;
 

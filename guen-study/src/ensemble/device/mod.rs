@@ -120,6 +120,7 @@ impl<S: Laned<N> + Sourced<N> + Sync, const N: usize> Ensemble<S, N> {
     ///                 {\n    (void)c;\n    (void)k;\n    (void)t;\n    (void)s;\n    (void)d;\n}\n",
     ///         steps: true,
     ///         adaptive: true,
+    ///         series: false,
     ///     };
     ///     const NUMBERS: usize = 1;
     ///     fn numbers(&self) -> impl Iterator<Item = f64> {
