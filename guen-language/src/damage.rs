@@ -1,4 +1,4 @@
-//! What faults of the grammar and of loops leave of a declaration, so that other faults are told beside them.
+//! Declarations as faults of the grammar and of loops leave them, so that other faults are told beside them.
 //!
 //! The statement around such a fault is damaged: what it declares may be missing, and nothing else is said about it. A fault that is
 //! found in what is left counts unless it stands in a damaged statement or at a name that one of these may have declared.
@@ -11,7 +11,7 @@ use crate::diagnostics::{Fault, FaultReport, position_of};
 use crate::names::array_of;
 use crate::syntax::{Declaration, Index};
 
-/// What a declaration lacks because of faults that were reported before.
+/// The parts that a declaration lacks because of faults that were reported before.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Damage {
     /// Nothing.
@@ -33,7 +33,7 @@ pub(crate) struct Damaged {
     names: BTreeSet<String>,
     /// The arrays in them, of which some entries may be missing.
     arrays: BTreeSet<String>,
-    /// What may be missing.
+    /// The names that may be missing.
     pub(crate) damage: Damage,
     /// Whether it cannot be told which names may be missing: a count, a component or the name of an instance is.
     pub(crate) is_beyond_names: bool,

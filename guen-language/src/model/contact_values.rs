@@ -15,7 +15,7 @@ use crate::syntax::{Expression, ExpressionKind, Name};
 const GAP: &str = "gap";
 const SLIP: &str = "slip";
 
-/// What is no number, and asked for nevertheless.
+/// The word for the mode of a contact, which is no number.
 const MODE: &str = "mode";
 
 impl Evaluator<'_> {

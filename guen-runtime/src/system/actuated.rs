@@ -69,7 +69,7 @@ pub trait Actuated<R: Real, const N: usize> {
     }
 
     /// The system with inputs by an [`InputLaw`], which is written for every real: `Radau5`, `Gauss4`, `Gauss6` and
-    /// [`Linearizable`] see its derivatives, and `Taylor` its series where the system provides one. One law serves every method.
+    /// [`Linearizable`](crate::Linearizable) see its derivatives, and `Taylor` its series where the system provides one. One law serves every method.
     fn with_law<L, const M: usize>(self, law: L) -> WithInputs<Self, SmoothLaw<L, Self, M>, R, N>
     where
         Self: Sized + InputRecords + Liftable<R, N, M>,

@@ -24,7 +24,7 @@ pub struct PartReport {
 }
 
 impl Part<'_, '_> {
-    /// Computes the motions of this part and writes their rows into a folder, which the other parts may share: see [`Sweep::run_in`].
+    /// Computes the motions of this part and writes their rows into a folder, which the other parts may share: see [`Sweep::run_in`](super::Sweep::run_in).
     ///
     /// A run that was killed at any instant, or that an error has ended, is gone on with by calling this again: finished chunks are looked at, and
     /// computed anew where their files are lost or damaged; nothing is lost, and nothing counted twice.

@@ -131,22 +131,22 @@ fn home(modules: &BTreeMap<Name, Module>, from: &[String], path: &[String], step
         path = rest;
     }
     while let [first, rest @ ..] = path
-        && modules.contains_key(&[&place[..], &[first.clone()]].concat())
+        && modules.contains_key(&[&place[..], std::slice::from_ref(first)].concat())
     {
         place.push(first.clone());
         path = rest;
     }
     let module = modules.get(&place)?;
-    let Some((name, behind)) = path.split_first() else { return None };
+    let (name, behind) = path.split_first()?;
     if module.defined.contains(name) {
         return Some(place);
     }
     module.imported.iter().filter(|(_, known)| known == name || known == "*").find_map(|(path, known)| {
         let (last, folder) = path.split_last()?;
         let path = if known == "*" {
-            [folder, &[name.clone()]].concat()
+            [folder, std::slice::from_ref(name)].concat()
         } else {
-            [folder, &[last.clone()]].concat()
+            [folder, std::slice::from_ref(last)].concat()
         };
         home(modules, &place, &[&path[..], behind].concat(), steps - 1)
     })

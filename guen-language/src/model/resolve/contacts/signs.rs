@@ -58,7 +58,7 @@ impl Resolver<'_, '_> {
         self.eval.fail(fault)
     }
 
-    /// How an expression of constants lies outside of 0 to 1, with the reason: by the ranges of its constants, or in a corner of
+    /// Returns how an expression of constants lies outside of 0 to 1, with the reason: by the ranges of its constants, or in a corner of
     /// their limits, where constants without limits have their defaults.
     pub(super) fn outside_of_unit(&mut self, value: ExprId) -> Option<(&'static str, Option<String>)> {
         let one = self.eval.bench.graph.one();
