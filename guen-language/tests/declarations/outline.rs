@@ -163,10 +163,11 @@ pub fn missing(declaration: &Declaration, items: TokenStream) -> Vec<String> {
     wanted.difference(&there).filter(is_known).cloned().collect()
 }
 
-/// Signatures without digests of declarations: what stands in for a faulty declaration has another.
+/// Signatures without digests of declarations, and without the numbers of a text of C: what stands in for a faulty declaration has others.
 fn without_digests(signatures: BTreeSet<String>) -> BTreeSet<String> {
     let is_digest = |word: &str| word.parse::<u64>().is_ok_and(|number| number > u64::from(u32::MAX));
     let without = |item: String| {
+        let item = item.split(" :: sourced ! (").next().unwrap_or_default();
         let words: Vec<&str> = item.split(' ').map(|word| if is_digest(word) { "_" } else { word }).collect();
         words.join(" ")
     };
@@ -206,9 +207,9 @@ fn forms_need_not_be_as_many_as_coordinates() {
             "system S {{ functions {{ f(x); }} coordinates {{ x }} parameters {{ u = dot(x); }} kinetic_energy = u^2; potential_energy = f(x) + y; {further} }}"
         ))
     };
-    assert!(written("provide source;").contains("source!(\"s\",\"\",true,true)"));
+    assert!(written("provide source;").contains("source!(\"s\",\"\",true,true,false)"));
     let in_scene = written("contacts { floor: gap = x; } scene T { provide source; }");
-    assert!(in_scene.contains("source!(\"s_t\",\"\",true,true)"), "{in_scene}");
+    assert!(in_scene.contains("source!(\"s_t\",\"\",true,true,false)"), "{in_scene}");
     // Without an equation of motion there is nothing to carry.
     assert!(carried("").contains("structS<R=f64>"));
 }
