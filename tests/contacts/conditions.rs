@@ -37,3 +37,51 @@ fn past_its_end_a_plate_lets_a_particle_through() {
     assert!((impact.t - 0.5).abs() < 1e-12 && impact.elements == [true, false], "{impact:?}");
     assert!(motion.end().z.abs() < 1e-12 && (motion.end().x - 2.0).abs() < 1e-12, "{:?}", motion.end());
 }
+
+mechanical_system! {
+    /// A particle that a force pushes, held by bolts that a switch, an impact or a reset releases.
+    system Bolts {
+        constants { m > 0 = 2, e in 0..1 = 0.5 }
+        coordinates { a, b, c, d, z }
+        parameters { of_a = dot(a); of_b = dot(b); of_c = dot(c); of_d = dot(d); up = dot(z); }
+        kinetic_energy = m/2*(of_a^2 + of_b^2 + of_c^2 + of_d^2 + up^2);
+        potential_energy = 10*m*z;
+        states { dot(signal) = 0; }
+        forces { m along of_a; m along of_b; m along of_c; m along of_d; }
+        switches { on: t - 1; }
+        contacts {
+            floor: gap = z, restitution = e;
+            first: latch = a, release = on;
+            second: latch = b, release = 2*on - 1 + t/4;
+            third: latch = c, release = up;
+            fourth: latch = d, release = signal - 1/2;
+        }
+        resets { kick: t - 3/2 rises, signal = 1; }
+    }
+}
+
+#[test]
+fn a_latch_is_released_where_its_release_jumps_above_zero() {
+    let bolts = Bolts::default().prepare().unwrap();
+    // At the floor after two seconds, as the particle above it starts with no velocity.
+    let start = bolts::State { z: 20.0, ..Default::default() };
+    let motion = bolts.simulate(&start, 0.0..3.0).unwrap();
+    let found: Vec<_> = motion
+        .transitions()
+        .iter()
+        .map(|transition| (transition.t, transition.kind, transition.elements))
+        .collect();
+    let [released, reset, impact, ..] = found[..] else { panic!("{found:?}") };
+    assert_eq!((released.1, released.2), (TransitionKind::Released, [false, true, true, false, false]));
+    assert_eq!((reset.1, reset.2), (TransitionKind::Reset, [false, false, false, false, true]));
+    assert_eq!((impact.1, impact.2), (TransitionKind::Impact, [true, false, false, true, false]));
+    for (found, t) in [(released.0, 1.0), (reset.0, 1.5), (impact.0, 2.0)] {
+        assert!((found - t).abs() < 1e-12, "{found}");
+    }
+    // A unit of acceleration from then on.
+    let end = motion.end();
+    for (place, t) in [(end.a, 1.0), (end.b, 1.0), (end.d, 1.5), (end.c, 2.0)] {
+        let since: f64 = 3.0 - t;
+        assert!((place - since * since / 2.0).abs() < 1e-11, "{end:?}");
+    }
+}

@@ -72,6 +72,23 @@ where
         }
     }
 
+    /// Frees locked latches whose release has jumped from zero or below to above zero, with a switch, in a reset or in an impact: such a
+    /// rise has no zero that is located.
+    pub(super) fn free_latches(&self, before: &Self, known: &mut [Known; C]) {
+        let locked = |c: usize| before.in_mode.mode.0[c] == ElementState::Locked;
+        if !(0..C).any(locked) {
+            return;
+        }
+        let conditions =
+            |place: &Self| place.in_mode.system.conditions(place.t, &place.state, &place.in_mode.switches);
+        let [was, is] = [conditions(before), conditions(self)].map(|conditions| conditions.release);
+        for c in 0..C {
+            if locked(c) && was[c] <= 0.0 && is[c] > 0.0 {
+                known[c].latch = ElementState::Free;
+            }
+        }
+    }
+
     /// The facts of the elements before an impact.
     pub(super) fn known(&self, fired: &Fired<C, S>, touches: &[bool; C], anew: bool) -> [Known; C] {
         let rates =

@@ -85,6 +85,7 @@ where
         if was_reset || struck || inputs || !fired.any() {
             next.set_switches(&fired.signals);
         }
+        next.free_latches(self, &mut known);
         next.in_mode = next.selected(&known)?;
         if next.leave_zeros() {
             next.in_mode = next.selected(&known)?;
@@ -102,6 +103,7 @@ where
 
         let mut elements = fired.elements();
         for (c, takes_part) in elements.iter_mut().enumerate() {
+            *takes_part |= before.0[c] == ElementState::Locked && after.0[c] == ElementState::Free;
             let row = |&row: &usize| impulses[row] != 0.0;
             *takes_part |= H::ELEMENTS[c].normal.iter().chain(H::ELEMENTS[c].tangential).any(row);
         }

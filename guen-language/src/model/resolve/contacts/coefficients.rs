@@ -91,16 +91,11 @@ impl<'a> Resolver<'a, '_> {
         if clause.word == ClauseWord::When {
             return self.undecided(contact, clause, value);
         }
-        if !self.passes_through_zero(value) {
+        if !self.passes_through_zero(value) && !self.jumps_above_zero(value) {
             let is_constant = self.eval.bench.graph.roles(value).is_constant();
             let does = if is_constant { "changes" } else { "passes through zero" };
             let text = format!("the release of `{}` never {does}", contact.name);
             let fault = Fault::new(clause.value.extent(), text);
-            let signs = self.signs(value, None);
-            let fault = match signs.below && signs.above && !is_constant {
-                true => fault.note("it changes where a switch does, and jumps there"),
-                false => fault,
-            };
             return self.eval.fail(fault.note("a latch is free again where its release rises through zero"));
         }
         Ok(value)

@@ -28,6 +28,17 @@ impl Resolver<'_, '_> {
         moving.into_iter().any(|role| roles.has(role)) && signs.below && signs.above
     }
 
+    /// Whether an expression may jump above zero, as a switch does.
+    pub(super) fn jumps_above_zero(&self, e: ExprId) -> bool {
+        let graph = &self.eval.bench.graph;
+        let symbols = graph.symbols_in(&[e]);
+        let is_inside = |switch: ExprId| graph.as_symbol(switch).is_some_and(|s| symbols.contains(&s));
+        let signs = self.signs(e, None);
+        signs.above
+            && (signs.below || signs.zero)
+            && self.switches.iter().any(|switch| is_inside(switch.symbol))
+    }
+
     /// The condition of a contact, of which it is not seen that it always or never holds. An instance may be given such a one by an
     /// argument.
     pub(super) fn undecided(

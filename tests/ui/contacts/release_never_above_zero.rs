@@ -1,6 +1,6 @@
-//! A switch jumps, and passes through no zero.
+//! A release that is nowhere above zero releases nothing.
 //!
-//! repair: `release = ice - 1/2` => `release = x - 5`
+//! repair: `release = -ice` => `release = x - 5`
 
 guen::mechanical_system! {
     pub system Ball {
@@ -13,7 +13,7 @@ guen::mechanical_system! {
         switches { ice: x - 5; }
         forces { push along u; }
         contacts {
-            bolt: latch = phi, release = ice - 1/2;
+            bolt: latch = phi, release = -ice;
         }
     }
 }
