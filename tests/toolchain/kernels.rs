@@ -23,7 +23,7 @@ typedef struct { unsigned x, y, z; } coordinates;
 static coordinates threadIdx, blockIdx, blockDim;
 "#;
 
-/// The same for the dialect as it is, in C++.
+/// The words with which C++ compiles a kernel without defining `GUEN_KERNEL` first.
 const BEFORE_DIALECT: &str = r#"
 #define __global__ static
 #define __device__
@@ -239,7 +239,7 @@ where
 const TIMES: [f64; 4] = [0.2, 0.31, 0.9, 1.7];
 /// With a turn back, which methods with a fixed step make.
 const TURNING: [f64; 5] = [0.2, 1.3, 1.3, 0.9, 1.7];
-/// The same within a time in which few hoops fall over.
+/// Times with a turn back, before which few hoops fall over.
 const SHORT: [f64; 4] = [0.1, 0.33, 0.2, 0.4];
 
 #[test]

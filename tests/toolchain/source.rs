@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 use std::io::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::LazyLock;
 
@@ -118,8 +118,8 @@ mechanical_system! {
     }
 }
 
-/// The program that reads words of 64 bits and prints those of `prepare`, the rates, and the ends of two runs.
-const PROGRAM: &str = r#"
+/// Functions that read words of 64 bits as doubles, and print doubles as such words; all NaN are one.
+pub(crate) const WORDS: &str = r#"
 #include <stdio.h>
 #include <string.h>
 
@@ -145,7 +145,10 @@ static void print_all(const double *x, int count)
             printf("nan ");
     }
 }
+"#;
 
+/// The program that prints the bits of `prepare`, the rates, and the ends of two runs, for each line that it reads.
+const PROGRAM: &str = r#"
 #define SYSTEM(NAME, RUNS) \
     if (!strcmp(argument[1], #NAME)) { \
         double c[NAME##_CONSTANTS + 1], k[NAME##_PREPARED + 1], s[NAME##_STATES], u[NAME##_INPUTS + 1], r[NAME##_STATES], t, settings[6]; \
@@ -235,17 +238,17 @@ fn compiled() -> PathBuf {
             text += &source.to_string();
         }
     }
-    compile(&(text + PROGRAM), "systems")
+    compile(&(text + WORDS + PROGRAM), "systems")
 }
 
-/// The lines that the program prints for lines of numbers.
-fn answers(system: &str, lines: &[Vec<f64>]) -> Vec<String> {
+/// The lines that a program prints for lines of numbers, asked for a system.
+pub(crate) fn answers(program: &Path, system: &str, lines: &[Vec<f64>]) -> Vec<String> {
     let mut text = String::new();
     for value in lines.iter().flatten() {
         let _ = write!(text, "{:x} ", value.to_bits());
     }
     let mut child =
-        Command::new(&*COMPILED).arg(system).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+        Command::new(program).arg(system).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     let mut input = child.stdin.take().unwrap();
     let writer = std::thread::spawn(move || input.write_all(text.as_bytes()));
     let output = child.wait_with_output().unwrap();
@@ -356,7 +359,7 @@ fn bits_are_those_of_rust() {
     let compare = |name: &str, lines: Vec<(Vec<f64>, String)>| {
         assert!(lines.len() > 40, "{name} {}", lines.len());
         let (given, expected): (Vec<_>, Vec<_>) = lines.into_iter().unzip();
-        let found = answers(name, &given);
+        let found = answers(&COMPILED, name, &given);
         assert_eq!(found.len(), expected.len(), "{name}");
         for ((found, expected), given) in found.iter().zip(&expected).zip(&given) {
             assert_eq!(found, expected, "{name} {given:?}");
@@ -507,7 +510,7 @@ fn the_program_of_the_page_prints_what_rust_computes() {
 fn constants_out_of_their_bounds_are_told_by_their_number() {
     let status = |c: [f64; 5]| {
         let given = [&c[..], &[0.0; 17]].concat();
-        answers("cart", &[given])[0].split(' ').next().unwrap().parse::<i32>().unwrap()
+        answers(&COMPILED, "cart", &[given])[0].split(' ').next().unwrap().parse::<i32>().unwrap()
     };
     assert_eq!(status([1.0, 1.0, 0.5, 1.0, 1.0]), 0);
     assert_eq!(status([0.0, 1.0, 0.5, 1.0, 1.0]), 1);

@@ -1,14 +1,12 @@
 //! Taylor's method in the text of C (`provide source, taylor;`): its coefficients, steps, samples and statuses have the bits of Rust's.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::path::PathBuf;
 
 use guen::steppers::{Cause, Guard, Integration, Taylor};
 use guen::{TaylorSeries, mechanical_system};
 
-use crate::source::{bits, compile, draws};
+use crate::source::{WORDS, answers, bits, compile, draws};
 
 mechanical_system! {
     /// A sled with its blade behind the centre, on an inclined plane.
@@ -67,34 +65,8 @@ mechanical_system! {
     }
 }
 
-/// The program that reads words of 64 bits and prints those of the coefficients at the start and of a run.
+/// The program that prints the bits of the coefficients at the start and of a run, for each line that it reads.
 const PROGRAM: &str = r#"
-#include <stdio.h>
-#include <string.h>
-
-static int read_all(double *x, int count)
-{
-    int i;
-    for (i = 0; i < count; ++i) {
-        unsigned long long bits;
-        if (scanf("%llx", &bits) != 1)
-            return 0;
-        x[i] = guen_from_bits(bits);
-    }
-    return 1;
-}
-
-static void print_all(const double *x, int count)
-{
-    int i;
-    for (i = 0; i < count; ++i) {
-        if (x[i] == x[i])
-            printf("%llx ", guen_bits(x[i]));
-        else
-            printf("nan ");
-    }
-}
-
 #define SYSTEM(NAME) \
     if (!strcmp(argument[1], #NAME)) { \
         double c[NAME##_CONSTANTS + 1], k[NAME##_PREPARED + 1], s[NAME##_STATES], u[NAME##_INPUTS + 1], t, settings[6]; \
@@ -136,22 +108,7 @@ int main(int count, char **argument)
 fn compiled() -> PathBuf {
     let sources = [sled::SOURCE, machine::SOURCE, machine::alone::SOURCE, thrown::SOURCE, flight::SOURCE];
     let text: String = sources.iter().map(|source| source.to_string()).collect();
-    compile(&(text + PROGRAM), "series")
-}
-
-/// The lines that the program prints for lines of numbers.
-fn answers(program: &Path, system: &str, lines: &[Vec<f64>]) -> Vec<String> {
-    let mut text = String::new();
-    for value in lines.iter().flatten() {
-        let _ = write!(text, "{:x} ", value.to_bits());
-    }
-    let mut child =
-        Command::new(program).arg(system).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
-    let mut input = child.stdin.take().unwrap();
-    let writer = std::thread::spawn(move || input.write_all(text.as_bytes()));
-    let output = child.wait_with_output().unwrap();
-    writer.join().unwrap().unwrap();
-    String::from_utf8(output.stdout).unwrap().lines().map(|line| line.trim().to_owned()).collect()
+    compile(&(text + WORDS + PROGRAM), "series")
 }
 
 /// The coefficients and the run of Rust, with the status of the run and the steps that were refused. Settings are tolerances, the order,

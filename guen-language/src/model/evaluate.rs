@@ -306,7 +306,7 @@ impl Evaluator<'_> {
     /// The value of an expression.
     pub(super) fn value(&mut self, e: &Expression) -> Evaluated {
         match &e.kind {
-            // What is missing was reported by the parser.
+            // The parser has reported the missing expression.
             ExpressionKind::Missing | ExpressionKind::Fold(_) if self.faults.count() > 0 => {
                 Err(self.faults.reported_before())
             }

@@ -38,9 +38,9 @@ const SOUND: &str = "system Cart {
 /// The part of a declaration that a fault is in.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Part {
-    /// What the motion needs: without it nothing can be derived.
+    /// A statement without which no motion can be derived.
     Core,
-    /// What it does not need.
+    /// A statement that the motion does not depend on.
     Leaf,
     /// A fault that the derivation finds, in a core that is sound.
     Derived,

@@ -107,7 +107,7 @@ fn draw(source: &mut Source, symbols: &[Drawn], depth: usize) -> Drawn {
     }
 }
 
-/// What rounding may do to a sign.
+/// The size below which the sign of a sampled value is rounding.
 const ROUNDING: f64 = 1e-9;
 
 #[test]

@@ -50,7 +50,7 @@ where
     ///
     /// # Errors
     ///
-    /// What kept the run from going on, with the last time, state and mode that were in order.
+    /// [`HybridError`]: the cause that ended the run, with the last valid time, state and mode.
     pub fn run<M>(self, method: &M, end: f64) -> Result<HybridResult<H::Mode, N>, HybridError<N, C>>
     where
         M: Method<f64, InMode<H, N, W, C, S>, N>,

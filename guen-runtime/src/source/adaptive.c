@@ -109,6 +109,25 @@ GUEN_FUNCTION void NAME_terms(
     }
 }
 
+/* Begins a run that chooses its steps: no work is done yet, and the samples at the start are written, `visited` of them. Returns -1, or the
+   status of a run without a step: 0, it is at its end; 1, times or tolerances make no sense. */
+GUEN_FUNCTION int NAME_begin(
+    double origin, const double *x, double until, guen_adaptive *method, int count, const double *times, double *samples, int *visited)
+{
+    int i;
+    method->evaluations = method->accepted = method->rejected = 0;
+    if (!guen_is_finite(origin) || !guen_is_finite(until) || !guen_in_order(origin, until, count, times))
+        return 1;
+    for (*visited = 0; *visited < count && times[*visited] == origin; ++*visited)
+        for (i = 0; i < NAME_STATES; ++i)
+            samples[*visited * NAME_STATES + i] = x[i];
+    if (until == origin)
+        return 0;
+    if (!(method->rtol >= 0.0 && guen_is_finite(method->rtol) && method->atol > 0.0 && guen_is_finite(method->atol)))
+        return 1;
+    return -1;
+}
+
 /* A run of DOP853 from *t to `until`, with the states at `count` times, which run in order from *t to `until` and may repeat: entry i at
    the j-th time is samples[j * NAME_STATES + i]. Moves t and x, and writes the work. Returns 0, or what stopped it, with the last good t and
    x: 1, a setting that makes no sense; 2, steps too small to move t; 3, a state or a rate that is not finite; 4, too many steps. */
@@ -121,21 +140,14 @@ GUEN_FUNCTION int NAME_dop853(
     const double origin = *t;
     double f[16][NAME_STATES], r[8][NAME_STATES], w[NAME_STATES], last[NAME_STATES], end[NAME_STATES], e5[NAME_STATES], e3[NAME_STATES];
     double ready = method->first_step, level = 0.0;
-    int i, j, has_level = 0, visited = 0, has_terms;
+    int i, j, has_level = 0, visited, has_terms, status;
 #ifdef GUEN_WATCHED
     double d[NAME_DOMAIN + 1];
     NAME_domain(c, k, origin, x, d);
 #endif
-    method->evaluations = method->accepted = method->rejected = 0;
-    if (!guen_is_finite(origin) || !guen_is_finite(until) || !guen_in_order(origin, until, count, times))
-        return 1;
-    for (; visited < count && times[visited] == origin; ++visited)
-        for (i = 0; i < NAME_STATES; ++i)
-            samples[visited * NAME_STATES + i] = x[i];
-    if (until == origin)
-        return 0;
-    if (!(method->rtol >= 0.0 && guen_is_finite(method->rtol) && method->atol > 0.0 && guen_is_finite(method->atol)))
-        return 1;
+    status = NAME_begin(origin, x, until, method, count, times, samples, &visited);
+    if (status >= 0)
+        return status;
     if (!NAME_is_finite(x))
         return 3;
     NAME_rhs(c, k, origin, x, u, f[0]);

@@ -184,21 +184,14 @@ GUEN_FUNCTION int NAME_taylor(
     const double origin = *t;
     NAME_expansion e[2];
     double rest[NAME_STATES], end[NAME_STATES], end_rest[NAME_STATES], w[NAME_STATES], tolerance, scale = 0.0, longest = GUEN_INFINITY;
-    int i, m, here = 0, ahead = 0, inside, visited = 0;
+    int i, m, here = 0, ahead = 0, inside, visited, status;
 #ifdef GUEN_WATCHED
     double d[NAME_DOMAIN + 1];
     NAME_domain(c, k, origin, x, d);
 #endif
-    method->evaluations = method->accepted = method->rejected = 0;
-    if (!guen_is_finite(origin) || !guen_is_finite(until) || !guen_in_order(origin, until, count, times))
-        return 1;
-    for (; visited < count && times[visited] == origin; ++visited)
-        for (i = 0; i < NAME_STATES; ++i)
-            samples[visited * NAME_STATES + i] = x[i];
-    if (until == origin)
-        return 0;
-    if (!(method->rtol >= 0.0 && guen_is_finite(method->rtol) && method->atol > 0.0 && guen_is_finite(method->atol)))
-        return 1;
+    status = NAME_begin(origin, x, until, method, count, times, samples, &visited);
+    if (status >= 0)
+        return status;
     if (order < 0 || order == 1 || order > GUEN_HIGHEST_ORDER || method->first_step != 0.0)
         return 1;
     tolerance = fmax(method->rtol, method->atol);
@@ -240,7 +233,6 @@ GUEN_FUNCTION int NAME_taylor(
             const int landing = 1.01 * step > fabs(span);
             const double next = landing ? until : time + copysign(step, span), h = next - time;
             const int is_shortest = fmin(step, fabs(span)) <= shortest;
-            int status;
             if (is_shortest && !landing && !was_rejected)
                 return 2;
             if (guen_is_finite(step))

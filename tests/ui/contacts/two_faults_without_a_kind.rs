@@ -1,4 +1,4 @@
-//! What is wrong in a contact without a gap is told, too.
+//! A contact without a gap can have further faults.
 //!
 //! repair: `slip = u + vv, restitution = x` => `gap = z - a, restitution = e`
 //! errors: 3

@@ -195,7 +195,7 @@ impl<'a> Resolver<'a, '_> {
         };
         let when = condition(self, ClauseWord::When);
         let release = condition(self, ClauseWord::Release);
-        // What stands on something faulty has no value, and is no fault of its own.
+        // A clause whose expression is faulty has no value; its fault is reported already.
         let is_there = |clause: &Clause| match clause.word {
             ClauseWord::Gap | ClauseWord::Latch => gap.is_some(),
             ClauseWord::Slip | ClauseWord::Grip => rows.len() > usize::from(gap.is_some()),
