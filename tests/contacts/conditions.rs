@@ -42,12 +42,12 @@ mechanical_system! {
     /// A particle that a force pushes, held by bolts that a switch, an impact or a reset releases.
     system Bolts {
         constants { m > 0 = 2, e in 0..1 = 0.5 }
-        coordinates { a, b, c, d, z }
-        parameters { of_a = dot(a); of_b = dot(b); of_c = dot(c); of_d = dot(d); up = dot(z); }
-        kinetic_energy = m/2*(of_a^2 + of_b^2 + of_c^2 + of_d^2 + up^2);
+        coordinates { a, b, c, d, f, z }
+        parameters { of_a = dot(a); of_b = dot(b); of_c = dot(c); of_d = dot(d); of_f = dot(f); up = dot(z); }
+        kinetic_energy = m/2*(of_a^2 + of_b^2 + of_c^2 + of_d^2 + of_f^2 + up^2);
         potential_energy = 10*m*z;
         states { dot(signal) = 0; }
-        forces { m along of_a; m along of_b; m along of_c; m along of_d; }
+        forces { m along of_a; m along of_b; m along of_c; m along of_d; m along of_f; }
         switches { on: t - 1; }
         contacts {
             floor: gap = z, restitution = e;
@@ -55,6 +55,8 @@ mechanical_system! {
             second: latch = b, release = 2*on - 1 + t/4;
             third: latch = c, release = up;
             fourth: latch = d, release = signal - 1/2;
+            // Above zero from the start, so that it rises at none of these times.
+            fifth: latch = f, release = 9 - t;
         }
         resets { kick: t - 3/2 rises, signal = 1; }
     }
@@ -72,14 +74,18 @@ fn a_latch_is_released_where_its_release_jumps_above_zero() {
         .map(|transition| (transition.t, transition.kind, transition.elements))
         .collect();
     let [released, reset, impact, ..] = found[..] else { panic!("{found:?}") };
-    assert_eq!((released.1, released.2), (TransitionKind::Released, [false, true, true, false, false]));
-    assert_eq!((reset.1, reset.2), (TransitionKind::Reset, [false, false, false, false, true]));
-    assert_eq!((impact.1, impact.2), (TransitionKind::Impact, [true, false, false, true, false]));
+    assert_eq!(
+        (released.1, released.2),
+        (TransitionKind::Released, [false, true, true, false, false, false])
+    );
+    assert_eq!((reset.1, reset.2), (TransitionKind::Reset, [false, false, false, false, true, false]));
+    assert_eq!((impact.1, impact.2), (TransitionKind::Impact, [true, false, false, true, false, false]));
     for (found, t) in [(released.0, 1.0), (reset.0, 1.5), (impact.0, 2.0)] {
         assert!((found - t).abs() < 1e-12, "{found}");
     }
     // A unit of acceleration from then on.
     let end = motion.end();
+    assert_eq!((end.f, end.of_f), (0.0, 0.0));
     for (place, t) in [(end.a, 1.0), (end.b, 1.0), (end.d, 1.5), (end.c, 2.0)] {
         let since: f64 = 3.0 - t;
         assert!((place - since * since / 2.0).abs() < 1e-11, "{end:?}");
