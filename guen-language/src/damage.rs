@@ -5,9 +5,9 @@
 
 use std::collections::BTreeSet;
 
-use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 
-use crate::diagnostics::{Fault, FaultReport, position_of};
+use crate::diagnostics::{Fault, file_of, position_of};
 use crate::names::array_of;
 use crate::syntax::{Declaration, Index};
 
@@ -25,8 +25,34 @@ pub(crate) enum Damage {
 /// A line and a column.
 type Position = (usize, usize);
 
+/// The place of a fault.
+enum Place {
+    /// Between the first token of the declaration and the last.
+    Position(Position),
+    /// The place of a token that another macro was given, as it is written out for debugging: places cannot be compared.
+    Token(String),
+}
+
+impl Place {
+    /// Whether one of some tokens is at the place.
+    fn is_among(&self, tokens: &[TokenTree]) -> bool {
+        let Place::Token(text) = self else { return true };
+        let mut is_there = false;
+        each(tokens, &mut |token| is_there |= format!("{:?}", token.span()) == *text);
+        is_there
+    }
+}
+
 /// The damaged statements of a declaration.
 pub(crate) struct Damaged {
+    /// The file, inside a macro.
+    file: Option<String>,
+    /// From the first token to the last.
+    extent: (Position, Position),
+    /// Whether a fault stands in no token of the declaration: it is in a component that is declared elsewhere.
+    is_damaged_elsewhere: bool,
+    /// The tokens of damaged statements whose fault stands in the arguments of another macro.
+    tokens: BTreeSet<String>,
     /// The statements, each from its first token to that of the next.
     statements: Vec<(Position, Position)>,
     /// The names in them that nothing else declares.
@@ -37,6 +63,36 @@ pub(crate) struct Damaged {
     pub(crate) damage: Damage,
     /// Whether it cannot be told which names may be missing: a count, a component or the name of an instance is.
     pub(crate) is_beyond_names: bool,
+}
+
+/// The statements of a declaration in which no fault was found.
+pub(crate) struct Whole {
+    damaged: Option<Damaged>,
+    unread: Option<Damaged>,
+}
+
+impl Whole {
+    /// The statements without the faults so far. The first `unread` of these were found before names had a meaning.
+    pub(crate) fn new(declaration: &Declaration, faults: &[Fault], unread: usize) -> Self {
+        let damaged_by = |faults: &[Fault]| {
+            (!faults.is_empty()).then(|| Damaged::new(&declaration.tokens, declaration, faults))
+        };
+        let (before, later) = faults.split_at(unread);
+        // Nothing is known of what is missing, and what stands around it means what it says.
+        let later = later.iter().filter(|fault| !fault.is_missing_name());
+        let all: Vec<Fault> = before.iter().chain(later).cloned().collect();
+        Whole { damaged: damaged_by(&all), unread: damaged_by(before) }
+    }
+
+    /// Whether there is no fault in the statement of a place.
+    pub(crate) fn has(&self, place: Span) -> bool {
+        !self.damaged.as_ref().is_some_and(|damaged| damaged.holds(place))
+    }
+
+    /// Whether the statement of a place could be read, be it without a meaning.
+    pub(crate) fn is_read(&self, place: Span) -> bool {
+        !self.unread.as_ref().is_some_and(|unread| unread.holds(place))
+    }
 }
 
 /// A statement, or an entry of a list.
@@ -51,17 +107,32 @@ const LEAVES: [&str; 8] =
 
 impl Damaged {
     /// The statements that faults have damaged.
-    pub(crate) fn new(tokens: &TokenStream, declaration: &Declaration, report: &FaultReport) -> Self {
+    pub(crate) fn new(tokens: &TokenStream, declaration: &Declaration, faults: &[Fault]) -> Self {
+        let tokens: Vec<TokenTree> = tokens.clone().into_iter().collect();
+        let last = match tokens.last() {
+            Some(TokenTree::Group(group)) => Some(group.span_close()),
+            last => last.map(TokenTree::span),
+        };
         let mut damaged = Damaged {
+            file: tokens.first().and_then(|token| file_of(token.span())),
+            extent: (tokens.first().map_or((0, 0), start), last.map_or((0, 0), position_of)),
+            is_damaged_elsewhere: false,
+            tokens: BTreeSet::new(),
             statements: Vec::new(),
             names: BTreeSet::new(),
             arrays: BTreeSet::new(),
             is_beyond_names: false,
-            damage: if report.is_empty() { Damage::None } else { Damage::Leaves },
+            damage: if faults.is_empty() { Damage::None } else { Damage::Leaves },
         };
-        let tokens: Vec<TokenTree> = tokens.clone().into_iter().collect();
-        for fault in report.faults() {
-            damaged.add(&tokens, position_of(fault.span()), 0);
+        for fault in faults {
+            let place = match damaged.is_here(fault.span()) {
+                true => Place::Position(position_of(fault.span())),
+                false => Place::Token(format!("{:?}", fault.span())),
+            };
+            if !place.is_among(&tokens) {
+                damaged.is_damaged_elsewhere = true;
+            }
+            damaged.add(&tokens, &place, 0);
         }
         let declared = declaration.items.iter().flat_map(|item| item.declared());
         for name in declared {
@@ -74,11 +145,30 @@ impl Damaged {
         damaged
     }
 
-    fn add(&mut self, tokens: &[TokenTree], at: Position, depth: usize) {
+    /// Whether a place is between the first token of the declaration and the last.
+    fn is_here(&self, span: Span) -> bool {
+        let (first, last) = self.extent;
+        (first..=last).contains(&position_of(span)) && file_of(span) == self.file
+    }
+
+    /// Whether a statement that holds a place says nothing, because of a fault in it.
+    pub(crate) fn holds(&self, span: Span) -> bool {
+        let at = position_of(span);
+        let is_token = || self.tokens.contains(&format!("{span:?}"));
+        match self.is_here(span) {
+            true => self.statements.iter().any(|(from, to)| *from <= at && at < *to),
+            false => self.is_damaged_elsewhere || !self.tokens.is_empty() && is_token(),
+        }
+    }
+
+    fn add(&mut self, tokens: &[TokenTree], at: &Place, depth: usize) {
         let end = (usize::MAX, 0);
         let statements = statements(tokens, end);
-        let begins = |statement: &&Statement<'_>| statement.tokens.first().is_some_and(|t| start(t) <= at);
-        let Some(statement) = statements.iter().rev().find(begins).or(statements.first()) else {
+        let holds = |statement: &&Statement<'_>| match at {
+            Place::Position(at) => statement.tokens.first().is_some_and(|token| start(token) <= *at),
+            Place::Token(_) => at.is_among(statement.tokens),
+        };
+        let Some(statement) = statements.iter().rev().find(holds).or(statements.first()) else {
             self.damage = Damage::Core;
             return;
         };
@@ -93,11 +183,13 @@ impl Damaged {
                 _ => false,
             };
         }
-        let inside = |group: &&Group| {
-            group.delimiter() == Delimiter::Brace
-                && position_of(group.span_open()) < at
-                && at < position_of(group.span_close())
+        let is_inside = |group: &&Group| match at {
+            Place::Position(at) => {
+                position_of(group.span_open()) < *at && *at < position_of(group.span_close())
+            }
+            Place::Token(_) => at.is_among(&group.stream().into_iter().collect::<Vec<TokenTree>>()),
         };
+        let inside = |group: &&Group| group.delimiter() == Delimiter::Brace && is_inside(group);
         let groups = statement.tokens.iter().filter_map(|token| match token {
             TokenTree::Group(group) => Some(group),
             _ => None,
@@ -119,6 +211,9 @@ impl Damaged {
         }
         if let Some(first) = statement.tokens.first() {
             self.statements.push((start(first), statement.end));
+            if matches!(at, Place::Token(_)) {
+                each(statement.tokens, &mut |token| self.tokens.insert(format!("{:?}", token.span())));
+            }
             words(statement.tokens, &mut self.names);
         }
     }
@@ -175,15 +270,19 @@ fn head(tokens: &[TokenTree]) -> Option<String> {
 
 /// Every identifier in some tokens.
 fn words(tokens: &[TokenTree], found: &mut BTreeSet<String>) {
+    each(tokens, &mut |token| {
+        if let TokenTree::Ident(word) = token {
+            found.insert(word.to_string());
+        }
+    });
+}
+
+/// Calls a function for every token, those inside of groups included.
+fn each<T>(tokens: &[TokenTree], visit: &mut dyn FnMut(&TokenTree) -> T) {
     for token in tokens {
-        match token {
-            TokenTree::Ident(word) => {
-                found.insert(word.to_string());
-            }
-            TokenTree::Group(group) => {
-                words(&group.stream().into_iter().collect::<Vec<TokenTree>>(), found);
-            }
-            _ => {}
+        visit(token);
+        if let TokenTree::Group(group) = token {
+            each(&group.stream().into_iter().collect::<Vec<TokenTree>>(), visit);
         }
     }
 }

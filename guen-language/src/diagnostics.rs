@@ -55,6 +55,13 @@ impl Fault {
         self.span
     }
 
+    /// Whether a name or a function is the mistake that nothing declares, or nothing so far.
+    pub(crate) fn is_missing_name(&self) -> bool {
+        let is_unknown =
+            ["unknown name `", "unknown function `"].iter().any(|begin| self.message.starts_with(begin));
+        is_unknown || self.message.ends_with("` is used before it is declared")
+    }
+
     /// The message of the fault, in one line.
     pub fn message(&self) -> &str {
         &self.message
@@ -156,6 +163,11 @@ impl Faults {
         self.faults.iter().any(|fault| format!("{:?}", fault.span) == at)
     }
 
+    /// The faults so far, in the order in which they were found.
+    pub(crate) fn found(&self) -> &[Fault] {
+        &self.faults
+    }
+
     /// Number of faults so far.
     pub fn count(&self) -> usize {
         self.faults.len()
@@ -235,6 +247,11 @@ impl fmt::Display for FaultReport {
 /// The line of a place.
 pub fn line_of(span: Span) -> usize {
     position_of(span).0
+}
+
+/// The file of a place, inside a macro.
+pub(crate) fn file_of(span: Span) -> Option<String> {
+    proc_macro::is_available().then(|| span.unwrap().file())
 }
 
 /// Line and column of a place: from the compiler inside a macro, from the text outside of one.

@@ -116,7 +116,7 @@ pub fn with_further_faults(
     declaration: &syntax::Declaration,
     report: diagnostics::FaultReport,
 ) -> diagnostics::FaultReport {
-    let damaged = damage::Damaged::new(tokens, declaration, &report);
+    let damaged = damage::Damaged::new(tokens, declaration, report.faults());
     let is_coordinates = |item: &syntax::Item| matches!(item, syntax::Item::Coordinates(_));
     let names: usize = declaration.items.iter().map(|item| item.declared().len()).sum();
     let mut waiting: Vec<&syntax::Expression> =
@@ -131,7 +131,11 @@ pub fn with_further_faults(
         || damaged.is_beyond_names
         || !declaration.items.iter().any(is_coordinates)
     {
-        return report;
+        return collect(|faults| {
+            faults.absorb(report);
+            model::check_dimensions(declaration, faults);
+        })
+        .1;
     }
     let ((), report) = collect(|faults| {
         faults.absorb(report);

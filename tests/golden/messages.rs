@@ -206,6 +206,61 @@ fn every_repair_repairs() {
     assert!(wrong.is_empty(), "{} repairs do not repair\n\n{}", wrong.len(), wrong.join("\n\n"));
 }
 
+/// Units for names that often stand for them.
+const USUAL_UNITS: [(&str, &[&str]); 5] = [
+    ("kg", &["m", "M"]),
+    ("m", &["l", "a", "R", "r", "x", "y", "z"]),
+    ("rad", &["phi", "theta", "psi", "q", "alpha"]),
+    ("m/s^2", &["g"]),
+    ("kg*m^2", &["J", "I"]),
+];
+
+/// A text with units behind the names of constants and coordinates.
+fn with_units(text: &str) -> String {
+    let mut written = String::new();
+    let mut rest = text;
+    while let Some(start) = ["constants", "coordinates"].iter().filter_map(|word| rest.find(word)).min() {
+        let end = rest[start..].find('}').map_or(rest.len(), |end| start + end);
+        written += &rest[..start];
+        for entry in rest[start..end].split_inclusive([',', '{']) {
+            let name = entry.trim_start();
+            let name = &name[..name.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(name.len())];
+            let unit = USUAL_UNITS.iter().find(|(_, names)| names.contains(&name));
+            match unit.filter(|_| !name.is_empty() && !entry.contains([':', '['])) {
+                Some((unit, _)) => written += &entry.replacen(name, &format!("{name}: {unit}"), 1),
+                None => written += entry,
+            }
+        }
+        rest = &rest[end..];
+    }
+    written + rest
+}
+
+/// Units let nothing follow from another fault: where they fit what is right, what is wrong has its own errors alone.
+#[test]
+fn units_add_nothing_to_other_faults() {
+    let (mut tried, mut wrong) = (0, Vec::new());
+    for case in cases().iter().filter(|case| !case.repairs.is_empty() && case.theme != "dimensions") {
+        let annotated = with_units(&case.text);
+        let start = annotated.find("mechanical_system!").unwrap();
+        let mut repaired = annotated[start..].to_owned();
+        for (from, to) in &case.repairs {
+            repaired = repaired.replacen(from.as_str(), to, 1);
+        }
+        let of = |text: String| Case { text, ..self::case(&root().join(&case.path)) };
+        if annotated == case.text || shown(&of(repaired)).0 > 0 {
+            continue;
+        }
+        tried += 1;
+        let (count, drawn) = shown(&of(annotated));
+        if count != case.errors {
+            wrong.push(format!("{}: {count} errors, not {}\n{drawn}", case.path, case.errors));
+        }
+    }
+    assert!(tried > 100, "{tried}");
+    assert!(wrong.is_empty(), "{} of {tried}\n\n{}", wrong.len(), wrong.join("\n\n"));
+}
+
 #[test]
 fn every_expectation_has_a_case() {
     for golden in files("stderr") {

@@ -33,6 +33,7 @@ use proc_macro2::{Ident, Span};
 use crate::syntax::{BoundKind, Declaration, Docs, Name, Scene, SuppliedFunction};
 
 pub use contact::{ContactEntry, ContactKind, ContactState, Contacts, Row, SwitchEntry};
+pub(crate) use dimensions::check as check_dimensions;
 pub use dimensions::{Units, momentum, reaction, residual};
 pub use rates::ChosenRates;
 pub(crate) use rates::nominal;

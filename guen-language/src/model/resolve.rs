@@ -32,8 +32,8 @@ use super::{BodyEntry, ConstantEntry, Model, OutputEntry, SceneEntry, SymbolEntr
 use crate::damage::Damage;
 use crate::diagnostics::{Fault, Faults};
 use crate::syntax::{
-    Argument, ArgumentKind, Declaration, Definition, Expression, ExpressionKind, Force as WrittenForce,
-    Instance, Item, Quantity, Scene, SectionKind,
+    Argument, ArgumentKind, Declaration, Definition, Expression, ExpressionKind, Force as WrittenForce, Item,
+    Quantity, Scene, SectionKind,
 };
 
 /// Checks names, kinds and forms. `None` if a fault was reported that leaves no model; after faults in what the motion does not need,
@@ -61,15 +61,14 @@ pub(crate) fn resolved<'a>(
             resolver.is_core_sound &= is_leaf(item);
         }
         if let Some(origin) = declaration.origins.get(place).copied().flatten() {
-            let Instance { path, component, place, .. } = &declaration.instances[origin];
-            let what = format!("in `{}`, a `{}`, used", path.text(), component.name);
-            resolver.eval.faults.of_instance(before, &what, *place);
+            let instance = &declaration.instances[origin];
+            resolver.eval.faults.of_instance(before, &instance.used(), instance.place);
         }
     }
     let (is_core_sound, mut model) = resolver.finish();
-    if damage == Damage::None && faults.count() == before {
-        let model = model.as_mut()?;
-        model.units = super::dimensions::units(declaration, faults);
+    let units = super::dimensions::units(declaration, before, faults);
+    if let Some(model) = &mut model {
+        model.units = units;
     }
     let mut model = model.filter(|_| is_core_sound)?;
     model.is_partial = damage != Damage::None || faults.count() > before;

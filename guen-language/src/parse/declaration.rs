@@ -32,12 +32,12 @@ pub(crate) fn declaration(tokens: TokenStream, faults: &mut Faults) -> Option<De
         return None;
     }
     let end = tokens.clone().into_iter().last().map_or_else(Span::call_site, |token| token.span());
-    let mut cursor = Cursor::new(tokens, end);
+    let mut cursor = Cursor::new(tokens.clone(), end);
     let declaration = system(&mut cursor, faults).ok();
     if declaration.is_some() {
         after_system(&mut cursor, faults);
     }
-    declaration
+    declaration.map(|declaration| Declaration { tokens, ..declaration })
 }
 
 /// Reads an invocation of the macro for components.
@@ -110,8 +110,9 @@ fn system(cursor: &mut Cursor, faults: &mut Faults) -> Result<Declaration, Repor
         }));
     };
     let (items, nesting) = items(&group, faults, &name, Owner::System);
-    let (counts, imported, instances, origins, components) = Default::default();
+    let (tokens, counts, imported, instances, origins, components) = Default::default();
     Ok(Declaration {
+        tokens,
         crate_path,
         docs,
         visibility,

@@ -133,6 +133,13 @@ pub struct Instance {
     pub declared: Rc<Component>,
 }
 
+impl Instance {
+    /// The instance with its component, for a note that ends with a place.
+    pub(crate) fn used(&self) -> String {
+        format!("in `{}`, a `{}`, used", self.path.text(), self.component.name)
+    }
+}
+
 /// `name: e`.
 #[derive(Debug, Clone)]
 pub struct GivenArgument {

@@ -13,6 +13,8 @@ use super::{
 /// A declaration: one `system` with its sections.
 #[derive(Debug, Clone)]
 pub struct Declaration {
+    /// The tokens of the invocation.
+    pub tokens: TokenStream,
     /// The path after `crate =`: how the facade is called in the user's crate, where that is not `::guen`.
     pub crate_path: Option<TokenStream>,
     /// Doc comments of the system.

@@ -41,8 +41,9 @@ pub(crate) fn constants(component: &Component, faults: &mut Faults) -> Declarati
 fn loops_of(component: &Component, counts: &[(&Name, i64)], faults: &mut Faults) -> Vec<Item> {
     let (docs, visibility, name) = (Docs::default(), Visibility::Private, component.name.clone());
     let (items, nesting) = (component.items.clone(), component.nesting.clone());
-    let (crate_path, unused, imported, instances, origins, components) = Default::default();
+    let (tokens, crate_path, unused, imported, instances, origins, components) = Default::default();
     let whole = Declaration {
+        tokens,
         crate_path,
         docs,
         visibility,

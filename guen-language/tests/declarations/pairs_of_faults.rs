@@ -8,9 +8,12 @@ use crate::common::by_two_threads;
 /// A declaration with an entry of every section that a fault can be in.
 const SOUND: &str = "system Cart {
     count n = 2;
-    constants { m > 0, a > 0, J > 0, mu >= 0, e in 0..1 = 0, g = 9.81, k[n] > 0 }
-    inputs { push, pull }
-    coordinates { x, z, phi, y, s[n] }
+    constants {
+        m: kg > 0, a: m > 0, J: kg*m^2 > 0, mu >= 0, e in 0..1 = 0, g: m/s^2 = 9.81, k[n]: N/m > 0, c: N*s/m >= 0,
+        far: m = 9, tau: s > 0, hold: N*m > 0
+    }
+    inputs { push: N, pull }
+    coordinates { x: m, z, phi: rad, y: m, s[n]: m }
     let height = z - a;
     fn weight(r) = m*g*r;
     parameters { u = dot(x); w = dot(z); spin = dot(phi); for i in 0..n { v[i] = dot(s[i]); } }
@@ -18,17 +21,17 @@ const SOUND: &str = "system Cart {
     kinetic_energy = m/2*(u^2 + w^2 + dot(y)^2) + J/2*spin^2 + sum(i in 0..n: m/2*v[i]^2);
     potential_energy = weight(z) + sum(i in 0..n: k[i]/2*s[i]^2);
     component Foot(level: scalar, ahead: scalar) {
-        constants { rubber > 0 }
-        contacts { sole: gap = level, slip = ahead, friction = rubber; }
+        constants { rubber > 0, thick: m > 0 }
+        contacts { sole: gap = level - thick, slip = ahead, friction = rubber; }
     }
     use Foot as left { level: z - x, ahead: u }
-    states { dot(heat) = u^2 - heat; }
-    forces { push along u; -mu*w along w; for i in 0..n { -pull*v[i] along v[i]; } }
-    switches { ice: x - 5; }
+    states { dot(heat) = u^2 - heat/tau; }
+    forces { push along u; -c*w along w; for i in 0..n { -pull*v[i] along v[i]; } }
+    switches { ice: x - far; }
     contacts {
         floor: gap = height, slip = u - a*spin, friction = mu*(1 - ice), restitution = e;
-        wall: gap = 9 - x;
-        axle: grip = spin, limit = m;
+        wall: gap = far - x;
+        axle: grip = spin, limit = hold;
     }
     modes { left.sole: open; axle: stick; never floor.stick with wall.closed; }
     outputs { power = push*u; force = reaction(wall); }
@@ -40,7 +43,7 @@ const SOUND: &str = "system Cart {
 enum Part {
     /// A statement without which no motion can be derived.
     Core,
-    /// A statement that the motion does not depend on.
+    /// A statement that the motion does not depend on, or a fault of dimensions, which hides nothing.
     Leaf,
     /// A fault that the derivation finds, in a core that is sound.
     Derived,
@@ -51,11 +54,11 @@ enum Part {
 use Part::{Core, Derived, Leaf, Singular};
 
 /// The part, what is right, what is wrong, and how the message begins.
-const FAULTS: [(Part, &str, &str, &str); 33] = [
+const FAULTS: [(Part, &str, &str, &str); 46] = [
     // The grammar.
-    (Core, "inputs { push, pull }", "inputs { push pull }", "expected"),
+    (Core, "inputs { push: N, pull }", "inputs { push: N pull }", "expected"),
     (Core, "spin = dot(phi);", "spin == dot(phi);", "expected `=`, found `==`"),
-    (Core, "= u^2 - heat;", "= u^2 - ;", "expected"),
+    (Core, "= u^2 - heat/tau;", "= u^2 - ;", "expected"),
     (Core, "fn weight(r) =", "fn weight(r)", "expected"),
     (Leaf, "power = push*u;", "power push*u;", "expected"),
     (Leaf, "friction = mu*(1 - ice)", "frction = mu*(1 - ice)", "unknown word `frction`"),
@@ -77,10 +80,10 @@ const FAULTS: [(Part, &str, &str, &str); 33] = [
     (Core, "J/2*spin^2", "J/2*spin^3", "the kinetic energy is not quadratic"),
     (Core, "e in 0..1 = 0", "e in 0..1 = 2", ""),
     (Core, "w = dot(z);", "w = z;", "parameter `w` has no velocity"),
-    (Leaf, "-mu*w along w;", "-mu*w along z;", "what follows `along` is a velocity"),
-    (Leaf, "ice: x - 5;", "ice: 5;", "the switch `ice` never changes"),
-    (Leaf, "gap = 9 - x;", "gap = 9 - u;", "the gap of `wall` depends on a velocity"),
-    (Leaf, "limit = m;", "limit = -m;", "the limit of `axle` is below zero"),
+    (Leaf, "-c*w along w;", "-c*w along z;", "what follows `along` is a velocity"),
+    (Leaf, "ice: x - far;", "ice: 5;", "the switch `ice` never changes"),
+    (Leaf, "gap = far - x;", "gap = far - u;", "the gap of `wall` depends on a velocity"),
+    (Leaf, "limit = hold;", "limit = -hold;", "the limit of `axle` is below zero"),
     (Leaf, "axle: stick;", "axle: open;", "`axle` has no state `open`"),
     (Leaf, "with wall.closed;", "with wal.closed;", "unknown contact `wal`"),
     (Leaf, "force = reaction(wall);", "force = reaction(wal);", "unknown"),
@@ -90,10 +93,24 @@ const FAULTS: [(Part, &str, &str, &str); 33] = [
     (Leaf, "provide power;", "provide powr;", ""),
     (Leaf, "restitution = e;", "restitution = e + 1;", "restitution `e + 1` of `floor` may lie outside"),
     (Leaf, "friction = rubber;", "friction = -rubber;", "the friction of `left.sole` is below zero"),
+    // Dimensions.
+    (Leaf, "push along u;", "push + m*(g + a) along u;", "this sum adds different dimensions"),
+    (Leaf, "let height = z - a;", "let height = z - a*a;", "this sum adds different dimensions"),
+    (Leaf, "fn weight(r) = m*g*r;", "fn weight(r) = (m + a)*g*r;", "this sum adds different dimensions"),
+    (Leaf, "J/2*spin^2", "(J + m)/2*spin^2", "this sum adds different dimensions"),
+    (Leaf, "= u^2 - heat/tau;", "= u^2 - heat;", "the sides of this equation have different dimensions"),
+    (Leaf, "limit = hold;", "limit = hold + m;", "this sum adds different dimensions"),
+    (Leaf, "gap = level - thick,", "gap = level - thick*(1 + thick),", "this sum adds different dimensions"),
+    (Leaf, "power = push*u;", "power = push*u + u*(m + a);", "this sum adds different dimensions"),
+    (Leaf, "gap = far - x;", "gap = far - phi;", "this sum adds different dimensions"),
+    (Leaf, "fix g = 1;", "fix g = a;", "`g` is in m/s^2, and this is in m"),
+    (Leaf, "k[i]/2*s[i]^2", "k[i]/2*(s[i] + m)^2", "this sum adds different dimensions"),
+    (Leaf, "guide: dot(y) = u;", "guide: dot(y) = u + (a - a);", "this sum adds different dimensions"),
+    (Leaf, "level: z - x,", "level: z - x*x,", "this sum adds different dimensions"),
     // The derivation.
     (Singular, "J/2*spin^2", "0*spin^2", "cannot solve for the accelerations"),
     (Derived, "slip = u - a*spin", "slip = w", "the slip of `floor` is the rate of its gap"),
-    (Derived, "gap = 9 - x;", "gap = y - x;", "the gap of `wall` never changes"),
+    (Derived, "gap = far - x;", "gap = y - x;", "the gap of `wall` never changes"),
 ];
 
 /// The messages for a declaration.
@@ -156,13 +173,13 @@ fn two_faults_give_two_errors() {
             let (_, other, also_wrong, _) = FAULTS[*second];
             let is_same = statement(one) == statement(other) || wrong == also_wrong;
             // Nothing is said of the states of a contact that is faulty.
-            let of_axle = [one, other].iter().all(|text| ["axle: stick;", "limit = m;"].contains(text));
+            let of_axle = [one, other].iter().all(|text| ["axle: stick;", "limit = hold;"].contains(text));
             if !is_same && !of_axle {
                 pairs.push((i, j));
             }
         }
     }
-    assert!(pairs.len() > 400, "{}", pairs.len());
+    assert!(pairs.len() > 800, "{}", pairs.len());
     let found = by_two_threads(&pairs, |(i, j)| messages(&with(&[usable[*i], usable[*j]])));
     let mut wrong = Vec::new();
     for ((i, j), found) in pairs.iter().zip(found) {

@@ -1,12 +1,15 @@
 //! Dimensions of expressions: what is added is of one dimension, and functions take numbers.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 use guen_symbolic::Rational;
 use proc_macro2::Span;
 
 use super::unknowns::{Partial, Unknowns};
+use crate::damage::Whole;
 use crate::diagnostics::{Fault, Faults};
+use crate::names::is_function;
 use crate::syntax::{Dimension, Expression, ExpressionKind, FunctionDefinition, MultiplyOperator, Name};
 
 /// The dimension of a value by its kind.
@@ -28,6 +31,8 @@ pub(super) const NUMBER: &str = "a number";
 /// The names with their dimensions.
 pub(super) struct Dimensions<'f> {
     pub(super) faults: &'f mut Faults,
+    /// The statements without other faults.
+    pub(super) whole: Rc<Whole>,
     pub(super) unknowns: Unknowns,
     pub(super) names: BTreeMap<String, Quantity>,
     /// Names that stand for numbers, for exponents.
@@ -35,6 +40,8 @@ pub(super) struct Dimensions<'f> {
     pub(super) functions: BTreeMap<String, FunctionDefinition>,
     /// The functions that the program supplies: the dimensions of their arguments and of their values.
     pub(super) supplied: BTreeMap<String, (Vec<Partial>, Partial)>,
+    /// The gap and the slip of contacts.
+    pub(super) contacts: BTreeMap<(&'static str, String), Quantity>,
     /// The names of parameters and constraints.
     pub(super) forms: BTreeSet<String>,
 }
@@ -140,8 +147,7 @@ impl Dimensions<'_> {
             }
             ExpressionKind::Power { base, exponent } => {
                 let own = self.of(base);
-                let power = self.number(exponent);
-                self.raised(base, own, power)
+                self.raised(base, own, exponent)
             }
             ExpressionKind::Comparison { left, right, .. } => {
                 let (l, r) = (format!("`{}`", left.source()), format!("`{}`", right.source()));
@@ -168,11 +174,11 @@ impl Dimensions<'_> {
                         );
                         per_second(length)
                     }
-                    (_, "powi" | "powf", [exponent]) => {
-                        let power = self.number(exponent);
-                        self.raised(base, own, power)
-                    }
-                    (_, "recip", []) => self.raised(base, own, Some(Rational::integer(-1))),
+                    (_, "powi" | "powf", [exponent]) => self.raised(base, own, exponent),
+                    (_, "recip", []) => match own {
+                        Quantity::Of(own) => Quantity::Of(own.raised(&Rational::integer(-1))),
+                        other => other,
+                    },
                     _ => {
                         let mut all = vec![(&**base, own)];
                         for argument in arguments {
@@ -211,14 +217,28 @@ impl Dimensions<'_> {
         }
     }
 
-    fn raised(&mut self, base: &Expression, own: Quantity, power: Option<Rational>) -> Quantity {
-        match (own, power) {
+    fn raised(&mut self, base: &Expression, own: Quantity, exponent: &Expression) -> Quantity {
+        match (own, self.number(exponent)) {
             (Quantity::Of(own), Some(power)) => Quantity::Of(own.raised(&power)),
+            // Nothing is known of a power where nothing is known of the exponent.
+            (_, None) if self.is_unknown(exponent) => Quantity::Anything,
             (own, None) => {
                 self.require(base, own, Partial::one(), "the base of this power");
                 Quantity::Of(Partial::one())
             }
             (own, _) => own,
+        }
+    }
+
+    /// Whether something in an expression is missing, or was declared by a statement with a fault.
+    fn is_unknown(&self, e: &Expression) -> bool {
+        match &e.kind {
+            ExpressionKind::Missing => true,
+            ExpressionKind::Name(name) if !["t", "pi"].contains(&name.text.as_str()) => {
+                let own = self.names.get(&name.text);
+                !self.numbers.contains_key(&name.text) && matches!(own, None | Some(Quantity::Anything))
+            }
+            _ => e.children().into_iter().any(|child| self.is_unknown(child)),
         }
     }
 
@@ -232,6 +252,13 @@ impl Dimensions<'_> {
         }
     }
 
+    /// Whether there is no fault in a function, whatever its arguments are.
+    pub(super) fn is_sound(&mut self, function: &FunctionDefinition) -> bool {
+        let before = self.faults.count();
+        self.value_for(function, function.parameters.iter().map(|_| Quantity::Anything));
+        self.faults.count() == before
+    }
+
     /// A call of a function of the declaration: dimensions are those of its arguments.
     fn called(
         &mut self,
@@ -240,8 +267,19 @@ impl Dimensions<'_> {
         arguments: Vec<(&Expression, Quantity)>,
     ) -> Quantity {
         let before = self.faults.count();
+        let value = self.value_for(function, arguments.into_iter().map(|(_, value)| value));
+        self.faults.note_since(before, &format!("in the call of `{name}`"), name.span());
+        value
+    }
+
+    /// The value of a function.
+    fn value_for(
+        &mut self,
+        function: &FunctionDefinition,
+        arguments: impl Iterator<Item = Quantity>,
+    ) -> Quantity {
         let mut hidden = Vec::new();
-        for (parameter, (_, value)) in function.parameters.iter().zip(arguments) {
+        for (parameter, value) in function.parameters.iter().zip(arguments) {
             hidden.push((parameter.text.clone(), self.names.insert(parameter.text.clone(), value)));
         }
         let value = self.of(&function.value);
@@ -251,7 +289,6 @@ impl Dimensions<'_> {
                 None => self.names.remove(&parameter),
             };
         }
-        self.faults.note_since(before, &format!("in the call of `{name}`"), name.span());
         value
     }
 
@@ -304,12 +341,21 @@ impl Dimensions<'_> {
                 }
                 other => other,
             },
-            _ => {
+            asked @ ("gap" | "slip") => match arguments {
+                [(Expression { kind: ExpressionKind::Name(contact), .. }, _)] => {
+                    let asked = if asked == "gap" { "gap" } else { "slip" };
+                    self.contacts.get(&(asked, contact.text.clone())).cloned().unwrap_or(Quantity::Anything)
+                }
+                _ => Quantity::Anything,
+            },
+            known if is_function(known) => {
                 for (e, own) in arguments {
                     self.require(e, own.clone(), Partial::one(), &format!("an argument of `{name}`"));
                 }
                 number()
             }
+            // One that a statement with a fault declares.
+            _ => Quantity::Anything,
         }
     }
 

@@ -1,18 +1,22 @@
 //! Checks the dimensions of a declaration with units, and infers those of names without one.
 //!
-//! The input is a declaration without faults of names and kinds. Names are visited in their order; each fault is reported at the
-//! smallest sum, product or argument that cannot be.
+//! Names are visited in their order; each fault is reported at the smallest sum, product or argument that cannot be. Statements in
+//! which other faults were found say nothing: what is left is a part of a declaration without them, and what is wrong in it is wrong
+//! in the whole.
 
 mod expressions;
 mod unknowns;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 use guen_symbolic::Rational;
 
-use crate::diagnostics::Faults;
+use crate::damage::Whole;
+use crate::diagnostics::{Faults, collect};
 use crate::syntax::{
-    ClauseWord, Contact, Declaration, Dimension, Expression, ExpressionKind, Inertia, Item, Reset, Unit,
+    Body, ClauseWord, Contact, Declaration, Dimension, Equation, Expression, ExpressionKind, Inertia, Item,
+    Name, Quantity as Written, Reset, Unit,
 };
 use expressions::{Dimensions, NUMBER, Quantity, per_second};
 use unknowns::{Partial, Unknowns};
@@ -20,18 +24,56 @@ use unknowns::{Partial, Unknowns};
 /// Names with their units: as written, or as they follow.
 pub type Units = BTreeMap<String, String>;
 
-/// Checks the dimensions of a declaration. None of a name without any, nor where nothing has a unit.
-pub(super) fn units(declaration: &Declaration, faults: &mut Faults) -> Units {
-    let written = declared_units(declaration);
-    if written.is_empty() {
+/// Checks the dimensions of a declaration that cannot be understood otherwise.
+pub(crate) fn check(declaration: &Declaration, faults: &mut Faults) {
+    units(declaration, faults.count(), faults);
+}
+
+/// Checks the dimensions of a declaration, as far as faults that were reported before leave them. None of a name without any, nor
+/// where nothing has a unit. The first `unread` of the faults were found before names had a meaning.
+pub(super) fn units(declaration: &Declaration, unread: usize, faults: &mut Faults) -> Units {
+    if declared_units(declaration).is_empty() {
         return Units::new();
     }
+    let whole = Rc::new(Whole::new(declaration, faults.found(), unread));
+    let pass = |unknowns: Unknowns| collect(|faults| pass(declaration, &whole, unknowns, faults));
+    let ((units, _), report) = pass(Unknowns::default());
+    if report.is_empty() {
+        return units;
+    }
+    // What is not annotated follows from most of its uses, and not from the first of them, which may be the fault.
+    let mut elected = BTreeMap::new();
+    for _ in 0..MOST_ROUNDS {
+        let ((_, unknowns), _) = pass(Unknowns::voting(elected.clone()));
+        let winners = unknowns.winners();
+        if winners.is_empty() {
+            break;
+        }
+        elected.extend(winners);
+    }
+    let (_, report) = pass(Unknowns::elected(elected));
+    faults.absorb(report);
+    units
+}
+
+/// The most rounds in which unknown dimensions follow from each other.
+const MOST_ROUNDS: usize = 10;
+
+/// Visits a declaration once.
+fn pass(
+    declaration: &Declaration,
+    whole: &Rc<Whole>,
+    unknowns: Unknowns,
+    faults: &mut Faults,
+) -> (Units, Unknowns) {
     let mut dimensions = Dimensions {
         faults,
-        unknowns: Unknowns::default(),
+        whole: Rc::clone(whole),
+        unknowns,
         names: BTreeMap::new(),
         numbers: BTreeMap::new(),
         functions: BTreeMap::new(),
+        contacts: BTreeMap::new(),
         supplied: BTreeMap::new(),
         forms: BTreeSet::new(),
     };
@@ -45,16 +87,21 @@ pub(super) fn units(declaration: &Declaration, faults: &mut Faults) -> Units {
     for item in &declaration.items {
         if let Item::States(section) = item {
             for state in &section.entries {
-                let own = dimensions.declared(state.unit.as_ref());
-                dimensions.names.insert(state.name.text.clone(), own);
+                dimensions.declare(&state.name, state.unit.as_ref());
                 shown.push(state.name.text.clone());
             }
         }
     }
-    for item in &declaration.items {
+    for (place, item) in declaration.items.iter().enumerate() {
+        let before = dimensions.faults.count();
         dimensions.item(item, &mut shown, &mut weights);
+        if let Some(origin) = declaration.origins.get(place).copied().flatten() {
+            let instance = &declaration.instances[origin];
+            dimensions.faults.of_instance(before, &instance.used(), instance.place);
+        }
     }
     if let Some(gravity) = gravity
+        && whole.has(gravity.value.first_token())
         && let Quantity::Of(field) = dimensions.of(&gravity.value)
     {
         for (mass, position) in weights {
@@ -81,8 +128,10 @@ pub(super) fn units(declaration: &Declaration, faults: &mut Faults) -> Units {
         }
         say(name, own.clone());
     }
-    units.extend(written.into_iter().map(|(name, unit)| (name.to_owned(), unit.text.clone())));
-    units
+    units.extend(
+        declared_units(declaration).into_iter().map(|(name, unit)| (name.to_owned(), unit.text.clone())),
+    );
+    (units, dimensions.unknowns)
 }
 
 /// The name under which the unit of a form's momentum `dT/d eta` stands.
@@ -132,12 +181,20 @@ fn of(unit: &str) -> Partial {
 }
 
 impl Dimensions<'_> {
-    /// The dimension of something declared: that of its unit, or an unknown one.
-    fn declared(&mut self, unit: Option<&Unit>) -> Quantity {
-        Quantity::Of(match unit {
-            Some(unit) => unit.dimension.clone().into(),
-            None => self.unknowns.fresh(),
-        })
+    /// Declares a name with the dimension of its unit, or an unknown one.
+    fn declare(&mut self, name: &Name, unit: Option<&Unit>) {
+        let own = match unit {
+            Some(unit) if self.whole.is_read(name.span()) => Quantity::Of(unit.dimension.clone().into()),
+            None if self.whole.has(name.span()) => Quantity::Of(self.unknowns.fresh()),
+            _ => Quantity::Anything,
+        };
+        self.name_of(name, own);
+    }
+
+    /// Lets a name stand for something. Nothing is known of one that is declared twice.
+    fn name_of(&mut self, name: &Name, own: Quantity) {
+        let is_first = !self.names.contains_key(&name.text);
+        self.names.insert(name.text.clone(), if is_first { own } else { Quantity::Anything });
     }
 
     /// A number takes the unit of what it is a value of; what names are in has one of its own.
@@ -151,18 +208,31 @@ impl Dimensions<'_> {
         }
     }
 
-    fn energy(&mut self, value: &Expression, what: &str) {
-        let own = self.of(value);
-        self.require(value, own, of("J"), what);
+    fn energy(&mut self, written: &Written, what: &str) {
+        if self.whole.has(written.keyword) {
+            let own = self.of(&written.value);
+            self.require(&written.value, own, of("J"), what);
+        }
     }
 
-    fn equation(&mut self, left: &Expression, right: &Expression, equals: proc_macro2::Span) -> Quantity {
-        let (a, b) = (self.of(left), self.of(right));
-        let (l, r) = (format!("`{}`", left.source()), format!("`{}`", right.source()));
-        self.shared((a, &l), (b, &r), equals, "the sides of this equation have different dimensions")
+    fn equation(&mut self, equation: &Equation) -> Quantity {
+        if !self.whole.has(equation.name.span()) {
+            return Quantity::Anything;
+        }
+        let (a, b) = (self.of(&equation.left), self.of(&equation.right));
+        let (l, r) = (format!("`{}`", equation.left.source()), format!("`{}`", equation.right.source()));
+        let message = "the sides of this equation have different dimensions";
+        self.shared((a, &l), (b, &r), equation.equals, message)
     }
 
-    fn form(&mut self, name: &str, own: Quantity, shown: &mut Vec<String>) {
+    /// The dimension of the value of a statement; nothing is known where a fault was found in it.
+    fn of_whole(&mut self, name: &Name, value: &Expression) -> Quantity {
+        if self.whole.has(name.span()) { self.of(value) } else { Quantity::Anything }
+    }
+
+    fn form(&mut self, name: &Name, own: Quantity, shown: &mut Vec<String>) {
+        let own = if self.names.contains_key(&name.text) { Quantity::Anything } else { own };
+        let name = name.text.as_str();
         for axis in ["", "_x", "_y", "_z"] {
             let name = crate::names::suffixed(name, axis);
             self.names.insert(name.clone(), own.clone());
@@ -172,20 +242,23 @@ impl Dimensions<'_> {
     }
 
     fn item(&mut self, item: &Item, shown: &mut Vec<String>, weights: &mut Vec<(Partial, Partial)>) {
+        let whole = Rc::clone(&self.whole);
         match item {
             Item::Count(_) => {}
             Item::Constants(section) => {
                 for entry in &section.entries {
-                    let own = self.declared(entry.unit.as_ref());
-                    self.names.insert(entry.name.text.clone(), own);
+                    self.declare(&entry.name, entry.unit.as_ref());
                     shown.push(entry.name.text.clone());
-                    entry.default.iter().for_each(|default| self.value_of(&entry.name.text, default));
+                    let before = self.faults.count();
+                    let default = entry.default.iter().filter(|_| whole.has(entry.name.span()));
+                    default.for_each(|default| self.value_of(&entry.name.text, default));
+                    // Those of all instances of a component are here.
+                    self.faults.keep_since(before, |_| true);
                 }
             }
             Item::Coordinates(section) | Item::Inputs(section) => {
                 for entry in &section.entries {
-                    let own = self.declared(entry.unit.as_ref());
-                    self.names.insert(entry.name.text.clone(), own);
+                    self.declare(&entry.name, entry.unit.as_ref());
                     shown.push(entry.name.text.clone());
                     if matches!(item, Item::Coordinates(_)) {
                         // In case it is chosen as a parameter.
@@ -194,24 +267,17 @@ impl Dimensions<'_> {
                         self.forms.insert(rate.clone());
                         shown.push(rate);
                     }
-                    let limits = entry.limits.iter().flat_map(|limits| limits.iter());
+                    let limits = entry.limits.iter().filter(|_| whole.has(entry.name.span()));
+                    let limits = limits.flat_map(|limits| limits.iter());
                     limits.for_each(|limit| self.value_of(&entry.name.text, limit));
                 }
             }
-            Item::Let(definition) => {
-                let own = self.of(&definition.value);
-                self.numbers
-                    .extend(self.number(&definition.value).map(|n| (definition.name.text.clone(), n)));
-                self.names.insert(definition.name.text.clone(), own);
-            }
+            Item::Let(definition) => self.named(&definition.name, &definition.value, &definition.name),
             Item::Argument(argument) => {
-                let value = &argument.given.value;
-                let own = self.of(value);
-                self.numbers.extend(self.number(value).map(|n| (argument.name.text.clone(), n)));
-                self.names.insert(argument.name.text.clone(), own);
+                self.named(&argument.name, &argument.given.value, &argument.given.name);
             }
             Item::Functions(section) => {
-                for function in &section.entries {
+                for function in section.entries.iter().filter(|function| whole.has(function.name.span())) {
                     // Each has one dimension, and so has each of its arguments, whatever the program supplies.
                     let arguments = function.arguments.iter().map(|_| self.unknowns.fresh()).collect();
                     let value = self.unknowns.fresh();
@@ -219,71 +285,49 @@ impl Dimensions<'_> {
                 }
             }
             Item::Function(function) => {
-                self.functions.insert(function.name.text.clone(), function.clone());
+                if whole.has(function.name.span()) && self.is_sound(function) {
+                    self.functions.insert(function.name.text.clone(), function.clone());
+                }
             }
             Item::Parameters(section) => {
                 for entry in &section.entries {
-                    let own = self.of(&entry.value);
-                    self.form(&entry.name.text, own, shown);
+                    let own = self.of_whole(&entry.name, &entry.value);
+                    self.form(&entry.name, own, shown);
                 }
             }
             Item::Outputs(section) => {
                 for entry in &section.entries {
-                    let own = self.of(&entry.value);
-                    self.names.insert(entry.name.text.clone(), own);
+                    let own = self.of_whole(&entry.name, &entry.value);
+                    self.name_of(&entry.name, own);
                     shown.push(entry.name.text.clone());
                 }
             }
             Item::Constraints(section) => {
                 for entry in &section.entries {
-                    let own = self.equation(&entry.left, &entry.right, entry.equals);
-                    self.form(&entry.name.text, own, shown);
+                    let own = self.equation(entry);
+                    self.form(&entry.name, own, shown);
                 }
             }
             Item::Holonomic(section) => {
                 for entry in &section.entries {
-                    let own = self.equation(&entry.left, &entry.right, entry.equals);
-                    self.form(&entry.name.text, per_second(own), shown);
+                    let own = self.equation(entry);
+                    self.form(&entry.name, per_second(own), shown);
                 }
             }
-            Item::KineticEnergy(quantity) => self.energy(&quantity.value, "the kinetic energy"),
-            Item::ForceFunction(quantity) => self.energy(&quantity.value, "the force function"),
-            Item::PotentialEnergy(quantity) => self.energy(&quantity.value, "the potential energy"),
+            Item::KineticEnergy(quantity) => self.energy(quantity, "the kinetic energy"),
+            Item::ForceFunction(quantity) => self.energy(quantity, "the force function"),
+            Item::PotentialEnergy(quantity) => self.energy(quantity, "the potential energy"),
             Item::Particles(section) => {
                 for particle in &section.entries {
-                    self.mass(&particle.mass, &particle.position, weights);
+                    if whole.has(particle.mass.first_token()) {
+                        self.mass(&particle.mass, &particle.position, weights);
+                    }
                 }
             }
-            Item::Bodies(section) => {
-                for body in &section.entries {
-                    if let (Some(mass), Some(center)) = (&body.mass, &body.center) {
-                        self.mass(&mass.value, &center.value, weights);
-                    }
-                    let entries: &[Expression] = match body.inertia.as_ref().map(|field| &field.value) {
-                        Some(Inertia::Diagonal(entries)) => &entries[..],
-                        Some(Inertia::Symmetric(entries)) => &entries[..],
-                        _ => &[],
-                    };
-                    for entry in entries {
-                        let own = self.of(entry);
-                        // Angles are numbers: the energy is `1/2 I omega^2`.
-                        let moment = of("J").times(&expressions::seconds(2), &Rational::integer(1));
-                        self.require(entry, own, moment, "a moment of inertia");
-                    }
-                    if let Some(orientation) = &body.orientation {
-                        self.of(&orientation.value);
-                    }
-                    let center = body.center.as_ref().map(|field| self.of(&field.value));
-                    let center = center.and_then(|own| match own {
-                        Quantity::Of(own) => Some(own),
-                        _ => None,
-                    });
-                    self.names.insert(body.name.text.clone(), Quantity::Body(center));
-                }
-            }
+            Item::Bodies(section) => section.entries.iter().for_each(|body| self.body(body, weights)),
             // Their names are known from the beginning.
             Item::States(section) => {
-                for state in &section.entries {
+                for state in section.entries.iter().filter(|state| whole.has(state.name.span())) {
                     let own = per_second(self.names[&state.name.text].clone());
                     let rate = self.of(&state.rate);
                     let (l, r) = (format!("`dot({})`", state.name), format!("`{}`", state.rate.source()));
@@ -292,7 +336,7 @@ impl Dimensions<'_> {
                 }
             }
             Item::Forces(section) => {
-                for force in &section.entries {
+                for force in section.entries.iter().filter(|force| whole.has(force.force.first_token())) {
                     let (own, along) = (self.of(&force.force), self.of(&force.direction));
                     if let (Quantity::Of(own), Quantity::Of(along)) = (own, along) {
                         let wanted = of("W").times(&along, &Rational::integer(-1));
@@ -307,20 +351,67 @@ impl Dimensions<'_> {
                 }
             }
             Item::Scene(scene) => {
-                for fix in &scene.fixes {
+                for fix in scene.fixes.iter().filter(|fix| whole.has(fix.name.span())) {
                     fix.value.iter().for_each(|value| self.value_of(&fix.name.text, value));
                 }
             }
             Item::Switches(section) => {
                 for switch in &section.entries {
-                    self.of(&switch.value);
-                    self.names.insert(switch.name.text.clone(), Quantity::Of(Partial::one()));
+                    self.of_whole(&switch.name, &switch.value);
+                    self.name_of(&switch.name, Quantity::Of(Partial::one()));
                 }
             }
-            Item::Contacts(section) => section.entries.iter().for_each(|contact| self.contact(contact)),
-            Item::Resets(section) => section.entries.iter().for_each(|reset| self.reset(reset)),
+            Item::Contacts(section) => {
+                for contact in section.entries.iter().filter(|contact| whole.has(contact.name.span())) {
+                    self.contact(contact);
+                }
+            }
+            Item::Resets(section) => {
+                for reset in section.entries.iter().filter(|reset| whole.has(reset.name.span())) {
+                    self.reset(reset);
+                }
+            }
             Item::Gravity(_) | Item::Provide(_) | Item::Modes(_) | Item::Component(_) | Item::Use(_) => {}
         }
+    }
+
+    /// A name for an expression, of a statement that begins with `place`.
+    fn named(&mut self, name: &Name, value: &Expression, place: &Name) {
+        let own = self.of_whole(place, value);
+        if self.whole.has(place.span()) {
+            self.numbers.extend(self.number(value).map(|number| (name.text.clone(), number)));
+        }
+        self.name_of(name, own);
+    }
+
+    /// A body: its mass at its centre, and its inertia.
+    fn body(&mut self, body: &Body, weights: &mut Vec<(Partial, Partial)>) {
+        if !self.whole.has(body.name.span()) {
+            return self.name_of(&body.name, Quantity::Anything);
+        }
+        if let (Some(mass), Some(center)) = (&body.mass, &body.center) {
+            self.mass(&mass.value, &center.value, weights);
+        }
+        let entries: &[Expression] = match body.inertia.as_ref().map(|field| &field.value) {
+            Some(Inertia::Diagonal(entries)) => &entries[..],
+            Some(Inertia::Symmetric(entries)) => &entries[..],
+            _ => &[],
+        };
+        for entry in entries {
+            let own = self.of(entry);
+            // Angles are numbers: the energy is `1/2 I omega^2`.
+            let moment = of("J").times(&expressions::seconds(2), &Rational::integer(1));
+            self.require(entry, own, moment, "a moment of inertia");
+        }
+        if let Some(orientation) = &body.orientation {
+            self.of(&orientation.value);
+        }
+        let center = body.center.as_ref().map(|field| self.of(&field.value));
+        let center = center.and_then(|own| match own {
+            Quantity::Of(own) => Some(own),
+            _ => None,
+        });
+        self.name_of(&body.name, Quantity::Body(center));
     }
 
     /// A variable and its new value have one dimension.
@@ -353,7 +444,13 @@ impl Dimensions<'_> {
             }
             let word = clause.word.text();
             match clause.word {
-                ClauseWord::Slip | ClauseWord::Grip => along = Some(own),
+                ClauseWord::Slip | ClauseWord::Grip => {
+                    self.contacts.insert(("slip", contact.name.text.clone()), own.clone());
+                    along = Some(own);
+                }
+                ClauseWord::Gap | ClauseWord::Latch => {
+                    self.contacts.insert(("gap", contact.name.text.clone()), own);
+                }
                 ClauseWord::Friction | ClauseWord::Stiction | ClauseWord::Restitution => {
                     self.require(&clause.value, own, Partial::one(), &format!("the {word}"));
                 }

@@ -51,13 +51,39 @@ impl Partial {
 
 /// The unknown dimensions of a declaration, as far as they are found.
 #[derive(Default)]
-pub(super) struct Unknowns(Vec<Option<Partial>>);
+pub(super) struct Unknowns {
+    found: Vec<Option<Partial>>,
+    /// Those that are known from the beginning.
+    elected: BTreeMap<usize, Dimension>,
+    /// What follows of unknown ones from each equation in which one is left, where nothing else is done with equations.
+    votes: Option<BTreeMap<usize, Vec<(Dimension, usize)>>>,
+}
 
 impl Unknowns {
+    /// Unknown dimensions of which some are known from the beginning.
+    pub(super) fn elected(elected: BTreeMap<usize, Dimension>) -> Self {
+        Unknowns { elected, ..Unknowns::default() }
+    }
+
+    /// Asks every equation what follows from it, and believes none.
+    pub(super) fn voting(elected: BTreeMap<usize, Dimension>) -> Self {
+        Unknowns { elected, votes: Some(BTreeMap::new()), ..Unknowns::default() }
+    }
+
+    /// Returns the unknown dimensions that more equations agree on than on any other.
+    pub(super) fn winners(self) -> BTreeMap<usize, Dimension> {
+        let most = |(name, mut votes): (usize, Vec<(Dimension, usize)>)| {
+            votes.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+            let is_tie = matches!(&votes[..], [(_, first), (_, second), ..] if first == second);
+            votes.into_iter().next().filter(|_| !is_tie).map(|(own, _)| (name, own))
+        };
+        self.votes.unwrap_or_default().into_iter().filter_map(most).collect()
+    }
+
     /// One that nothing is known of.
     pub(super) fn fresh(&mut self) -> Partial {
-        self.0.push(None);
-        let name = self.0.len() - 1;
+        let name = self.found.len();
+        self.found.push(self.elected.get(&name).cloned().map(Partial::from));
         Partial { known: Dimension::one(), unknown: BTreeMap::from([(name, Rational::integer(1))]) }
     }
 
@@ -65,7 +91,7 @@ impl Unknowns {
     pub(super) fn resolved(&self, partial: &Partial) -> Partial {
         let mut resolved = partial.clone();
         while let Some((name, found)) =
-            resolved.unknown.keys().find_map(|name| Some((*name, self.0[*name].as_ref()?)))
+            resolved.unknown.keys().find_map(|name| Some((*name, self.found[*name].as_ref()?)))
         {
             let power = resolved.unknown.remove(&name).unwrap_or_default();
             resolved = resolved.times(found, &power);
@@ -78,7 +104,7 @@ impl Unknowns {
         let quotient = self.resolved(&a.times(b, &Rational::integer(-1)));
         let Some((name, power)) = quotient.unknown.iter().next().map(|(name, power)| (*name, power.clone()))
         else {
-            return if quotient.known.is_one() {
+            return if quotient.known.is_one() || self.votes.is_some() {
                 Ok(())
             } else {
                 Err(Box::new([self.resolved(a), self.resolved(b)]))
@@ -88,7 +114,18 @@ impl Unknowns {
         rest.unknown.remove(&name);
         // 1 = x^p * rest, so that x = rest^(-1/p).
         let exponent = power.recip().map_or(Rational::ZERO, |inverse| -inverse);
-        self.0[name] = Some(rest.raised(&exponent));
+        let own = rest.raised(&exponent);
+        let Some(votes) = &mut self.votes else {
+            self.found[name] = Some(own);
+            return Ok(());
+        };
+        if let Some(own) = own.known() {
+            let votes = votes.entry(name).or_default();
+            match votes.iter_mut().find(|(other, _)| other == own) {
+                Some((_, count)) => *count += 1,
+                None => votes.push((own.clone(), 1)),
+            }
+        }
         Ok(())
     }
 }

@@ -45,9 +45,8 @@ pub(super) fn combinations<'a>(
         let before = faults.count();
         section.entries.iter().for_each(|statement| stated.read(statement, origin, faults));
         if let Some(origin) = origin {
-            let Instance { path, component, place, .. } = &declaration.instances[origin];
-            let what = format!("in `{}`, a `{}`, used", path.text(), component.name);
-            faults.of_instance(before, &what, *place);
+            let instance = &declaration.instances[origin];
+            faults.of_instance(before, &instance.used(), instance.place);
         }
     }
     let Stated { states, never, .. } = stated;

@@ -110,6 +110,7 @@ pub(super) fn constants(component: &Component, content: &Unfolded) -> Declaratio
     let coordinates = Section::new(Default::default(), place, vec![plain]);
     let rest = [Item::Coordinates(coordinates), Item::KineticEnergy(energy)];
     Declaration {
+        tokens: Default::default(),
         crate_path: component.crate_path.clone(),
         docs: Default::default(),
         visibility: Visibility::Private,

@@ -6,7 +6,7 @@ mod twenty;
 use guen_language::derive::derive;
 use guen_language::diagnostics::collect;
 use guen_language::report::Report;
-use guen_language::{model, parse};
+use guen_language::{model, parse, with_further_faults};
 
 use crate::common::derived;
 
@@ -29,15 +29,83 @@ const CART: &str = "pub system Cart {
 
 /// The messages of a declaration's faults.
 fn faults(text: &str) -> Vec<String> {
-    let (declaration, parsed) = parse::parse(text.parse().unwrap());
+    let tokens: proc_macro2::TokenStream = text.parse().unwrap();
+    let (declaration, parsed) = parse::parse(tokens.clone());
+    let declaration = declaration.unwrap();
     let all = if parsed.is_empty() {
-        let declaration = declaration.unwrap();
         let (_, report) = collect(|faults| derive(model::resolve(&declaration, faults)?, faults).map(|_| ()));
         report.to_compile_errors().to_string()
     } else {
-        parsed.to_compile_errors().to_string()
+        with_further_faults(&tokens, &declaration, parsed).to_compile_errors().to_string()
     };
     all.split("compile_error").skip(1).map(str::to_owned).collect()
+}
+
+/// A mass that is sprung between two walls, with what is declared before its energies.
+fn sprung(before: &str, energy: &str, after: &str) -> String {
+    format!(
+        "system Sprung {{
+            constants {{ m: kg > 0, a: m > 0, k: N/m > 0 }}
+            coordinates {{ x: m, z }}
+            {before}
+            kinetic_energy = m/2*(dot(x)^2 + dot(z)^2);
+            potential_energy = {energy};
+            contacts {{ floor: gap = x; }}
+            {after}
+        }}"
+    )
+}
+
+#[test]
+fn a_fault_is_told_once() {
+    let energy = "k/2*(x^2 + z^2)";
+    let told = |before: &str, energy: &str, after: &str| faults(&sprung(before, energy, after));
+    assert_eq!(told("", energy, "outputs { far = gap(floor) + a; }").len(), 0);
+    assert!(told("", energy, "outputs { far = gap(floor) + m; }")[0].contains("`gap(floor)` is in m"));
+    // `z` has no unit, and is a length by its other uses.
+    let found = told("let area = z + a*a;", energy, "");
+    assert!(found.len() == 1 && found[0].contains("`z` is in m, and `a*a` is in m^2"), "{found:?}");
+    // A function, whether anything calls it or not, and however often.
+    let function = "fn far(r) = r*(m + a);";
+    for energy in [energy, "k/2*(x^2 + z^2) + 0*far(1) + 0*far(a)"] {
+        let found = told(function, energy, "");
+        assert!(found.len() == 1 && found[0].contains("`m` is in kg, and `a` is in m"), "{found:?}");
+    }
+    // A component and its instances.
+    let component = "component Spring(reach: scalar) { constants { s: N/m > 0, own: m = 2*s } potential_energy = s*reach; }
+        use Spring as left { reach: x } use Spring as right { reach: z }";
+    let found = told(component, energy, "");
+    assert!(found.len() == 2, "{found:?}");
+    assert!(
+        found[0].contains("`left.own` is in m") && found[1].contains("in `left`, a `Spring`"),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn nothing_is_told_of_what_follows_from_other_faults() {
+    for (before, energy, after, message) in [
+        // The exponent, the function and the unit are missing.
+        ("let n = 2 +;", "k/2*(x^2 + z^2) + 0*x^n", "", "expected"),
+        ("fn half(r) r/2;", "k*half(x^2) + half(k)*z^2", "", "expected `=`"),
+        (
+            "inputs { u: foo }",
+            "k/2*(x^2 + z^2)",
+            "forces { u*a along dot(x); u along dot(z); }",
+            "unknown unit",
+        ),
+        // What is declared twice, and what is no velocity.
+        ("let x = 1;", "k/2*z^2", "outputs { o = x + a; p = x + m; }", "`x` is declared twice"),
+        (
+            "parameters { v = z; }",
+            "k/2*(x^2 + z^2)",
+            "outputs { o = v + dot(x); }",
+            "parameter `v` has no velocity",
+        ),
+    ] {
+        let found = faults(&sprung(before, energy, after));
+        assert!(found.len() == 1 && found[0].contains(message), "{before} {energy} {after}\n{found:?}");
+    }
 }
 
 /// The declaration without the units of some names.
