@@ -17,6 +17,7 @@ mod piecewise;
 mod printed;
 mod reference;
 mod resets;
+mod resets_in_scenes;
 mod seen;
 mod several_modes;
 mod simulated;

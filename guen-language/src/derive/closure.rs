@@ -16,6 +16,8 @@ pub enum Reason {
     Contact(String),
     /// A switch, the function of which depends on it.
     Switch(String),
+    /// A reset that changes something which is kept needs it.
+    Reset(String),
     /// The rate of this variable depends on it.
     Rate(StateIndex),
     /// The variable is part of a unit quaternion with this coordinate.
@@ -90,20 +92,20 @@ impl StateEquations<'_> {
     }
 
     /// The variables that leave and are pure quadratures, in layers: the rates of each layer depend on what is kept
-    /// and on the layers before. What forces of contacts move is none.
+    /// and on the layers before. What jumps is none: what forces of contacts move or a reset changes.
     pub fn quadratures(
         &self,
         bench: &mut Workbench,
         dependence: &mut Dependence,
         kept: &[Option<Reason>],
-        is_pressed: impl Fn(StateIndex) -> bool,
+        jumps: impl Fn(StateIndex) -> bool,
     ) -> Vec<Vec<Quadrature>> {
         let mut known: Vec<Option<Reason>> = kept.to_vec();
         let mut layers: Vec<Vec<Quadrature>> = Vec::new();
         loop {
             let places: Vec<StateIndex> = (0..known.len())
                 .filter(|place| known[*place].is_none() && self.variables[*place].is_some())
-                .filter(|place| !is_pressed(*place))
+                .filter(|place| !jumps(*place))
                 .filter(|place| self.missing(bench, dependence, &known, self.rates[*place]).is_empty())
                 .collect();
             if places.is_empty() {

@@ -39,12 +39,21 @@ pub struct ContactFacts {
     pub delassus: Vec<ExprId>,
     /// Whether a row moves by itself.
     pub drifts: bool,
-    /// The places in the state that each reset changes, in the order in which they are written.
-    pub changed: Vec<Vec<usize>>,
+    /// The resets that the level has, in order.
+    pub resets: Vec<ResetFacts>,
     /// The branches of piecewise functions, which are signals after the switches and resets.
     pub branches: Vec<Branch>,
     /// The modes whose rates have a program of their own, by their places.
     pub eliminated: Vec<usize>,
+}
+
+/// A reset of a level.
+#[derive(Clone, Debug)]
+pub struct ResetFacts {
+    /// The reset by its index.
+    pub reset: usize,
+    /// The assignments of variables that the level has: the index of each, and the place of its variable in the state.
+    pub assignments: Vec<(usize, usize)>,
 }
 
 /// The programs of contacts, the facts about them, and the equations that scenes are made of; `None` after a fault, and where there are
@@ -65,7 +74,7 @@ pub(super) fn derive(
             limits: &limits(model),
         };
         let (programs, mut facts) = programs(&mut model.bench, &contacts, &level, name, faults)?;
-        facts.changed = changed(model, &contacts);
+        facts.resets = resets(model, &contacts);
         Some((programs, facts, Rc::new(equations)))
     });
     model.contacts = Some(contacts);
@@ -90,17 +99,19 @@ pub(super) fn at_values(
     equations::derive(model, contacts, Some(fixed), faults).map(Rc::new)
 }
 
-/// The places in the state that each reset changes.
-fn changed(model: &Model<'_>, contacts: &Contacts<'_>) -> Vec<Vec<usize>> {
-    let mechanics = &model.mechanics;
-    let parameters = &mechanics.etas[..mechanics.forms.degrees];
-    let states = mechanics.states.iter().map(|state| state.symbol);
-    let variables: Vec<ExprId> =
-        mechanics.forms.coordinates.iter().chain(parameters).copied().chain(states).collect();
+/// Every reset, with the places of its variables in the whole state.
+fn resets(model: &Model<'_>, contacts: &Contacts<'_>) -> Vec<ResetFacts> {
+    let (_, size) = model.sizes();
+    let variables: Vec<ExprId> = (0..size).map(|place| model.variable(place)).collect();
     let place = |variable: ExprId| variables.iter().position(|known| *known == variable);
-    let resets = contacts.resets.iter();
+    let resets = contacts.resets.iter().enumerate();
     resets
-        .map(|reset| reset.assignments.iter().filter_map(|(variable, _)| place(*variable)).collect())
+        .map(|(reset, entry)| {
+            let given = entry.assignments.iter().enumerate();
+            let assignments =
+                given.filter_map(|(given, (variable, _))| Some((given, place(*variable)?))).collect();
+            ResetFacts { reset, assignments }
+        })
         .collect()
 }
 

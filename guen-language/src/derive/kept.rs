@@ -3,6 +3,7 @@
 use guen_symbolic::{Dependence, Derivation, ExprId, Workbench};
 
 use super::closure::{Reason, StateEquations};
+use super::contacts::SceneContacts;
 use super::fixed::Holding;
 use super::manifold::Replacement;
 use super::parts::replaced;
@@ -16,19 +17,21 @@ pub(super) struct Kept {
     pub(super) replacements: Vec<Replacement>,
 }
 
-/// The least closed set of variables with those that are tracked and those that something wanted depends on.
-pub(super) fn kept(
+/// The least closed set of variables with those that are tracked and those that something wanted depends on. Coordinates that are tracked or
+/// pinned are not replaced.
+fn kept(
     bench: &mut Workbench,
     dependence: &mut Dependence,
     (derivation, holding): (&Derivation, &mut Holding),
     written: &StateEquations<'_>,
-    tracked: &[StateIndex],
+    (tracked, pinned): (&[StateIndex], &[StateIndex]),
     wanted: &[(Reason, ExprId)],
 ) -> Kept {
     let mut reasons = written.closure(bench, dependence, tracked, wanted);
     let mut replacements: Vec<Replacement> = Vec::new();
     for candidate in Replacement::all(bench, &derivation.system, holding) {
-        if candidate.coordinates.iter().any(|i| reasons[*i].is_none() || tracked.contains(i)) {
+        let stays = |i: &StateIndex| reasons[*i].is_none() || tracked.contains(i) || pinned.contains(i);
+        if candidate.coordinates.iter().any(stays) {
             continue;
         }
         replacements.push(candidate);
@@ -48,4 +51,38 @@ pub(super) fn kept(
         }
     }
     Kept { reasons, replacements }
+}
+
+/// The least closed set of variables with those that are tracked and those that something asked for depends on, with the switches and resets
+/// that it takes; and all that it was asked for.
+pub(super) fn closed(
+    bench: &mut Workbench,
+    dependence: &mut Dependence,
+    (derivation, holding): (&Derivation, &mut Holding),
+    written: &StateEquations<'_>,
+    (tracked, asked): (&[StateIndex], &[(Reason, ExprId)]),
+    contacts: &mut Option<SceneContacts<'_, '_>>,
+) -> (Vec<(Reason, ExprId)>, Kept) {
+    let system = &derivation.system;
+    let equations: Vec<ExprId> = system.holonomic.iter().map(|h| holding.of(bench, h.equation)).collect();
+    let coordinates = &written.variables[..system.forms.coordinates.len()];
+    let pinned = contacts.as_ref().map_or(Vec::new(), |contacts| {
+        contacts.reset_coordinates(bench, dependence, (coordinates, &equations))
+    });
+    loop {
+        let watched = contacts.iter().flat_map(SceneContacts::watched);
+        let wanted: Vec<(Reason, ExprId)> = asked.iter().cloned().chain(watched).collect();
+        let stay = (tracked, &pinned[..]);
+        let found = kept(bench, dependence, (derivation, holding), written, stay, &wanted);
+        let Some(contacts) = contacts else { return (wanted, found) };
+        let is_kept = |place: StateIndex| found.reasons[place].is_some();
+        let moving = (0..written.variables.len()).filter(|place| is_kept(*place));
+        let moving = moving.flat_map(|place| written.pressed[place].iter().copied());
+        let needed: Vec<ExprId> = wanted.iter().map(|(_, e)| *e).chain(moving).collect();
+        let has_switches = contacts.take_switches(bench, dependence, &needed);
+        let known = (written.variables, &equations[..]);
+        if !contacts.take_resets(bench, dependence, known, is_kept) && !has_switches {
+            return (wanted, found);
+        }
+    }
 }

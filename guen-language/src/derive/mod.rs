@@ -1,5 +1,6 @@
 //! Derives a checked model: the derivation, its faults in the user's names, and the programs.
 
+mod asked;
 mod branches;
 mod carried;
 mod cheapest;
@@ -46,7 +47,7 @@ use readable::{equations, polish, shown};
 pub use branches::Branch;
 pub use closure::{Quadrature, Reason};
 pub use commutator::Commutator;
-pub use contacts::{ContactFacts, Painleve};
+pub use contacts::{ContactFacts, Painleve, ResetFacts};
 pub(crate) use control::{has_covector, known_combinations};
 pub use facts::SceneFacts;
 pub use jacobians::Jacobians;

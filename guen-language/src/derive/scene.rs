@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use guen_symbolic::{Dependence, Derivation, ExprId, Substitution, Workbench};
 
+use super::asked::{is_output, nothing_moves, of_outputs, provided, tracked, wanted};
 use super::cheapest::cheapest;
 use super::closure::{Reason, StateEquations};
 use super::commutator::Commutator;
@@ -12,16 +13,15 @@ use super::contacts::{self, ContactEquations, SceneContacts};
 use super::facts::SceneFacts;
 use super::fixed::{self, Holding};
 use super::jacobians::Jacobians;
-use super::kept::{self, Kept};
+use super::kept::{Kept, closed};
 use super::level::Level;
 use super::manifold::{Replacement, quaternions};
 use super::parts::{Functions, View, parts};
 use super::readable::{polish, shown};
-use super::selection::{Held, Selection, StateIndex};
+use super::selection::StateIndex;
 use super::{carried, formulas, series, source};
-use crate::diagnostics::{Fault, Faults};
-use crate::model::{Model, SceneEntry, SceneModes};
-use crate::syntax::Name;
+use crate::diagnostics::{Faults, collect};
+use crate::model::{ContactEntry, Model, SceneEntry, SceneModes, slip_in_only_mode};
 
 /// A derivation with its brackets and the equations of its contacts, as scenes share it.
 #[derive(Clone)]
@@ -31,7 +31,7 @@ struct Shared {
     contacts: Option<Rc<ContactEquations>>,
 }
 
-/// Derives every scene but those in a single mode of contacts; those with faults are reported and left out.
+/// Derives every scene but those in a single mode of contacts without resets; those with faults are reported and left out.
 pub(super) fn derive(
     model: &mut Model<'_>,
     system: &Level,
@@ -39,12 +39,17 @@ pub(super) fn derive(
     faults: &mut Faults,
 ) -> Vec<Level> {
     let contacts = model.contacts.take();
-    let scenes = std::mem::take(&mut model.scenes);
+    let mut scenes = std::mem::take(&mut model.scenes);
     let (derivation, brackets) = (system.derivation.clone(), system.brackets.clone());
     let mut derived: Vec<(Vec<(ExprId, ExprId)>, Shared)> =
         vec![(Vec::new(), Shared { derivation, brackets, contacts: equations })];
     let mut levels = Vec::new();
-    for (index, scene) in scenes.iter().enumerate().filter(|(_, scene)| scene.single_mode().is_none()) {
+    let may_reset = contacts.as_ref().is_some_and(|contacts| !contacts.resets.is_empty());
+    for (index, entry) in scenes.iter_mut().enumerate() {
+        let scene = &*entry;
+        if scene.single_mode().is_some() && !may_reset {
+            continue;
+        }
         let values: Vec<(ExprId, ExprId)> = scene.fixes.iter().map(|fix| (fix.symbol, fix.value)).collect();
         let known = derived.iter().find(|(known, _)| *known == values).map(|(_, shared)| shared.clone());
         let shared = known.or_else(|| {
@@ -66,20 +71,39 @@ pub(super) fn derive(
             derived.push((values, shared.clone()));
             Some(shared)
         });
-        let Some(Shared { derivation, brackets, contacts: of_contacts }) = shared else { continue };
+        let Some(Shared { derivation, brackets, contacts: of_contacts }) = shared else {
+            // In its mode, too, the values of its constants would be reported.
+            entry.modes = SceneModes::Without;
+            continue;
+        };
         // What is zero is judged on the holonomic equations at the values of this scene.
         let equations: Vec<ExprId> = derivation.system.holonomic.iter().map(|h| h.equation).collect();
         model.bench.zero.set_manifold(&mut model.bench.graph, &equations);
-        let several = match &scene.modes {
-            SceneModes::Several(modes) => Some(modes),
-            _ => None,
+        let modes = match &scene.modes {
+            SceneModes::Without => None,
+            SceneModes::One(mode) => Some(vec![mode.clone()]),
+            SceneModes::Several(modes) => Some(modes.clone()),
         };
-        let own = contacts.as_ref().zip(several).zip(of_contacts.as_ref());
-        let own = own.map(|((contacts, modes), equations)| {
+        let own = |model: &Model<'_>| {
+            let ((contacts, modes), equations) =
+                contacts.as_ref().zip(modes.as_ref()).zip(of_contacts.as_ref())?;
             // What an outline needs is not known.
             let switches = if model.declaration.is_outline { contacts.switches.len() } else { 0 };
-            SceneContacts::new(contacts, modes, equations, (0..switches).collect())
-        });
+            Some(SceneContacts::new(model, contacts, modes, equations, (0..switches).collect()))
+        };
+        if let (SceneModes::One(mode), Some(own), Some(contacts)) = (&scene.modes, own(model), &contacts) {
+            if !has_resets(model, &derivation, own, scene) {
+                let entries: Vec<&ContactEntry<'_>> = contacts.entries.iter().collect();
+                if let Some(fault) = slip_in_only_mode(&entries, mode, scene.scene) {
+                    faults.report(fault);
+                    entry.modes = SceneModes::Without;
+                }
+                continue;
+            }
+            let mode = mode.clone();
+            entry.modes = SceneModes::Several(vec![mode]);
+        }
+        let (own, scene) = (own(model), &*entry);
         levels.extend(level(model, system, (derivation, brackets), own, (index, scene), faults));
     }
     model.scenes = scenes;
@@ -111,17 +135,18 @@ fn level(
         .into_iter()
         .map(|list| list.into_iter().map(|e| holding.of(&mut model.bench, e)).collect())
         .collect();
-    let mut selection = provided(model, &derivation, scene, faults)?;
-    let tracked = tracked(model, &held, scene, faults)?;
-    let mut wanted = wanted(model, &derivation, &mut holding, &first, &selection);
-    let pressed = contacts.as_ref().map_or(Vec::new(), |contacts| contacts.pressed(n));
-    if let Some(contacts) = &contacts {
-        for output in selection.outputs.iter().map(|o| &model.outputs[*o]) {
-            let reason = Reason::Provided(format!("provide {}", output.name.text));
-            wanted.extend(output.components.iter().map(|c| (reason.clone(), contacts.output(*c))));
-        }
+    let mut selection = provided(model, &derivation, contacts.as_ref(), scene, faults);
+    let tracked: Vec<StateIndex> =
+        tracked(model, scene).into_iter().filter(|place| !fixed::is_held(&held, *place)).collect();
+    if tracked.is_empty() {
+        faults.report(nothing_moves(scene));
     }
-    let asked = wanted;
+    if faults.count() > before {
+        return None;
+    }
+    let mut asked = wanted(model, &derivation, &mut holding, &first, &selection);
+    asked.extend(contacts.iter().flat_map(|contacts| of_outputs(model, contacts, &selection)));
+    let pressed = contacts.as_ref().map_or(Vec::new(), |contacts| contacts.pressed(n));
 
     // What is kept, with the fewest variables that the holonomic equations allow.
     let variables: Vec<Option<ExprId>> =
@@ -131,26 +156,24 @@ fn level(
     let wholes = quaternions(bench, &derivation.system);
     let mut dependence = Dependence::default();
     let written = StateEquations { variables: &variables, rates: &first, pressed: &pressed, wholes: &wholes };
-    let (wanted, Kept { reasons, replacements }) = loop {
-        let watched = contacts.iter().flat_map(SceneContacts::watched);
-        let wanted: Vec<(Reason, ExprId)> = asked.iter().cloned().chain(watched).collect();
-        let found =
-            kept::kept(bench, &mut dependence, (&derivation, &mut holding), &written, &tracked, &wanted);
-        let Some(contacts) = &mut contacts else { break (wanted, found) };
-        let moving = (0..size).filter(|place| found.reasons[*place].is_some());
-        let moving = moving.flat_map(|place| pressed[place].iter().copied());
-        let needed: Vec<ExprId> = wanted.iter().map(|(_, e)| *e).chain(moving).collect();
-        if !contacts.take_switches(bench, &mut dependence, &needed) {
-            break (wanted, found);
-        }
-    };
+    let known = (&*derivation, &mut holding);
+    let asked = (&tracked[..], &asked[..]);
+    let (wanted, Kept { reasons, replacements }) =
+        closed(bench, &mut dependence, known, &written, asked, &mut contacts);
     let determined = determined(bench, &mut dependence, &derivation, &mut holding, (&variables, &reasons));
     let followers =
         followers(model, &derivation, &mut dependence, &mut holding, (&variables, &reasons), &determined);
     let mut known = reasons.clone();
     determined.iter().for_each(|(i, _)| known[*i] = Some(Reason::Tracked));
-    let is_pressed = |place: StateIndex| pressed_places.get(place).is_some_and(|is| *is);
-    let quadratures = written.quadratures(&mut model.bench, &mut dependence, &known, is_pressed);
+    let reset_elsewhere: Vec<StateIndex> = match &model.declaration.in_mode {
+        Some(mode) => mode.reset.iter().flat_map(|name| model.places(name)).collect(),
+        None => Vec::new(),
+    };
+    let jumps = |place: StateIndex| {
+        let is_reset = contacts.as_ref().is_some_and(|contacts| contacts.changer(place).is_some());
+        pressed_places.get(place).is_some_and(|is| *is) || is_reset || reset_elsewhere.contains(&place)
+    };
+    let quadratures = written.quadratures(&mut model.bench, &mut dependence, &known, jumps);
     selection.take(model, (0..size).filter(|p| reasons[*p].is_some()).collect());
 
     // Expressions without what left.
@@ -287,6 +310,39 @@ fn level(
     Some(level)
 }
 
+/// Whether a scene in a single mode has resets, and runs through that mode as through several.
+fn has_resets(
+    model: &mut Model<'_>,
+    derivation: &Derivation,
+    contacts: SceneContacts<'_, '_>,
+    scene: &SceneEntry<'_>,
+) -> bool {
+    let (n, size) = model.sizes();
+    let held: Vec<StateIndex> = scene.held.iter().flat_map(|name| model.places(&name.text)).collect();
+    // A constant does not jump, and is refused where this is known.
+    if held.iter().any(|place| contacts.changer(*place).is_some()) {
+        return true;
+    }
+    // Faults are reported once it is known in which form the scene is derived.
+    let (selection, _) = collect(|faults| provided(model, derivation, None, scene, faults));
+    let tracked = tracked(model, scene);
+    let tracked: Vec<StateIndex> = tracked.into_iter().filter(|place| !held.contains(place)).collect();
+    let rates = derivation.formulations[0].rates.clone();
+    let mut holding = Holding::new(model, &[]);
+    let mut asked = wanted(model, derivation, &mut holding, &rates, &selection);
+    asked.extend(of_outputs(model, &contacts, &selection));
+    let variables: Vec<Option<ExprId>> =
+        (0..size).map(|p| (!held.contains(&p)).then(|| model.variable(p))).collect();
+    let pressed = contacts.pressed(n);
+    let bench = &mut model.bench;
+    let wholes = quaternions(bench, &derivation.system);
+    let written = StateEquations { variables: &variables, rates: &rates, pressed: &pressed, wholes: &wholes };
+    let mut contacts = Some(contacts);
+    let asked = (&tracked[..], &asked[..]);
+    closed(bench, &mut Dependence::default(), (derivation, &mut holding), &written, asked, &mut contacts);
+    contacts.is_some_and(|contacts| contacts.has_resets())
+}
+
 /// The coordinates that left and that holonomic equations say of what is kept, one by one.
 fn determined(
     bench: &mut Workbench,
@@ -347,166 +403,6 @@ fn followers(
         if left.all(|x| !dependence.depends(bench, value, x)) {
             found.push((follower.name.clone(), value));
         }
-    }
-    found
-}
-
-fn is_output(model: &Model<'_>, name: &Name) -> bool {
-    model.outputs.iter().any(|output| output.name.text == name.text)
-}
-
-/// Returns the quantities that the scene says it provides; reports those that the system does not have.
-fn provided(
-    model: &Model<'_>,
-    derivation: &Derivation,
-    scene: &SceneEntry<'_>,
-    faults: &mut Faults,
-) -> Option<Selection> {
-    let l = derivation.system.forms.degrees;
-    let before = faults.count();
-    let mut selection = Selection::default();
-    let is_loose = |v: &usize| {
-        let mode = model.declaration.in_mode.iter();
-        mode.flat_map(|mode| &mode.contacts)
-            .any(|contact| contact.is_undetermined && contact.has(&model.forms[*v].name))
-    };
-    let known = |v: &usize| derivation.reactions[*v - l].is_some() && !is_loose(v);
-    for provide in &scene.scene.provides {
-        let name = &provide.name;
-        match name.text.as_str() {
-            "energy" => selection.energy = true,
-            "linearization" => selection.linearization = true,
-            "operators" => selection.operators = true,
-            // Of the programs, once they are there.
-            "taylor" | "source" => {}
-            "reactions" => match &provide.of {
-                None => {
-                    let all = (l..model.forms.len()).filter(known);
-                    let (count, bound) = (selection.reactions.len(), model.forms.len() - l);
-                    selection.reactions.extend(all);
-                    if selection.reactions.len() == count {
-                        faults.report(no_reaction(name, bound == 0));
-                    }
-                }
-                Some(of) => {
-                    for constraint in of {
-                        let forms = model.constraints(&constraint.text);
-                        if forms.is_empty() {
-                            faults.report(no_rows(model, constraint));
-                        } else if forms.iter().any(is_loose) {
-                            faults.report(not_determined(constraint, &constraint.text));
-                        } else if !forms.iter().all(known) {
-                            faults.report(no_reaction(constraint, false));
-                        } else {
-                            selection.reactions.extend(forms);
-                        }
-                    }
-                }
-            },
-            // A form of its own, derived when this one is.
-            "carried" if !is_output(model, name) => {}
-            output => {
-                let place = model.outputs.iter().position(|known| known.name.text == output);
-                for c in place.iter().flat_map(|o| &model.outputs[*o].components) {
-                    let symbols = model.bench.graph.symbols_in(&[model.mechanics.outputs[*c]]);
-                    let unknown = model.undetermined.iter().find(|reaction| {
-                        model.bench.graph.as_symbol(**reaction).is_some_and(|r| symbols.contains(&r))
-                    });
-                    if let Some(reaction) = unknown {
-                        faults.report(not_determined(name, &model.bench.graph.text(*reaction)));
-                        break;
-                    }
-                }
-                selection.outputs.extend(place);
-            }
-        }
-    }
-    for list in [&mut selection.reactions, &mut selection.outputs] {
-        list.sort_unstable();
-        list.dedup();
-    }
-    (faults.count() == before).then_some(selection)
-}
-
-/// A constraint without a row: it says nothing, or is a contact that does not touch.
-fn no_rows(model: &Model<'_>, name: &Name) -> Fault {
-    match &model.declaration.in_mode {
-        Some(mode) => Fault::new(name.span(), format!("`{name}` has no reaction in this scene"))
-            .note(format!("its mode is: {}", mode.words)),
-        None => Fault::new(name.span(), format!("`{name}` was left out: it says 0 = 0")),
-    }
-}
-
-/// A reaction that only together with others is determined.
-fn not_determined(place: &Name, what: &str) -> Fault {
-    Fault::new(place.span(), format!("`{what}` is not determined in the mode of this scene")).note(
-        "the rows of its contact depend on those of others: only sums of their reactions are determined",
-    )
-}
-
-fn no_reaction(name: &Name, is_free: bool) -> Fault {
-    if is_free {
-        return Fault::new(name.span(), "this system has no constraints, and so no reactions");
-    }
-    Fault::new(name.span(), "the kinetic energy does not tell this reaction")
-        .note("it is given on the constraints, where the momentum is lost")
-        .help("write the energy in the velocities, with the constraints dropped")
-}
-
-/// The variables that the scene tracks: those named, else the parameters.
-fn tracked(
-    model: &Model<'_>,
-    held: &[Held],
-    scene: &SceneEntry<'_>,
-    faults: &mut Faults,
-) -> Option<Vec<StateIndex>> {
-    let (n, l) = (model.coordinates.len(), model.mechanics.forms.degrees);
-    let named = scene.scene.tracks.iter().flat_map(|name| model.places(&name.text));
-    let tracked: Vec<StateIndex> =
-        if scene.scene.tracks.is_empty() { (n..n + l).collect() } else { named.collect() };
-    let tracked: Vec<StateIndex> =
-        tracked.into_iter().filter(|place| !fixed::is_held(held, *place)).collect();
-    if tracked.is_empty() {
-        let name = &scene.scene.name;
-        let fault = Fault::new(name.span(), format!("scene `{name}` has nothing that moves"))
-            .note("without `track` the parameters are tracked, and all of them are fixed");
-        faults.report(fault.help("write `track` and what somebody will look at"));
-        return None;
-    }
-    Some(tracked)
-}
-
-/// Returns the provided quantities that depend on the state, by name, with accelerations as functions of the state.
-fn wanted(
-    model: &mut Model<'_>,
-    derivation: &Derivation,
-    holding: &mut Holding,
-    rates: &[ExprId],
-    selection: &Selection,
-) -> Vec<(Reason, ExprId)> {
-    let (n, l) = (model.coordinates.len(), derivation.system.forms.degrees);
-    let accelerations = derivation.system.accelerations.iter().copied().zip(rates[n..].iter().copied());
-    let mut solved = Substitution::new(accelerations);
-    let mut found: Vec<(Reason, ExprId)> = Vec::new();
-    if selection.energy {
-        found.push((Reason::Provided("provide energy".to_owned()), derivation.energies.integral));
-    }
-    for v in &selection.reactions {
-        let reason = Reason::Provided(format!("provide reactions({})", model.forms[*v].name));
-        found.extend(derivation.reactions[*v - l].map(|e| (reason, e)));
-    }
-    for output in selection.outputs.iter().map(|o| &model.outputs[*o]) {
-        let reason = Reason::Provided(format!("provide {}", output.name.text));
-        found.extend(output.components.iter().map(|c| (reason.clone(), derivation.outputs[*c])));
-    }
-    for name in model.declaration.in_mode.iter().flat_map(|mode| &mode.tracked) {
-        let follower = model.followers.iter().find(|follower| follower.name == *name);
-        let reason = Reason::Provided(format!("track {name}"));
-        found.extend(follower.map(|f| (reason, derivation.outputs[f.output])));
-    }
-    for (_, e) in &mut found {
-        *e = holding.of(&mut model.bench, *e);
-        *e = solved.of(&mut model.bench.graph, *e);
     }
     found
 }

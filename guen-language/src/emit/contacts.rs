@@ -15,13 +15,14 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let Layout { size, n, .. } = layout;
     let count = contacts.entries.len();
     let rows = contacts.rows().count();
-    let switches = facts.switches.len() + facts.changed.len() + facts.branches.len();
+    let switches = facts.switches.len() + facts.resets.len() + facts.branches.len();
     let elements = elements(contacts);
     let signals = facts.switches.iter().map(|s| {
         let name = &contacts.switches[*s].name.text;
         quote!(__guen::hybrid::Signal::switch(#name))
     });
-    let resets = facts.changed.iter().zip(&contacts.resets).map(|(_, reset)| {
+    let resets = facts.resets.iter().map(|own| {
+        let reset = &contacts.resets[own.reset];
         let name = &reset.name.text;
         match reset.crossing {
             Crossing::Rises => quote!(__guen::hybrid::Signal::reset_rising(#name)),
@@ -355,12 +356,12 @@ impl Function {
 /// The assignments of each reset, by its signal: resets come after the switches.
 fn changes(facts: &ContactFacts) -> TokenStream {
     let mut given = 0_usize;
-    let arms = facts.changed.iter().enumerate().map(|(place, changed)| {
+    let arms = facts.resets.iter().enumerate().map(|(place, reset)| {
         let signal = facts.switches.len() + place;
         let first = given;
-        given += changed.len();
-        let assigned =
-            changed.iter().zip(first..).map(|(variable, value)| quote!(after[#variable] = values[#value];));
+        given += reset.assignments.len();
+        let assigned = reset.assignments.iter().zip(first..);
+        let assigned = assigned.map(|((_, variable), value)| quote!(after[#variable] = values[#value];));
         quote!(#signal => { #(#assigned)* })
     });
     arms.collect()

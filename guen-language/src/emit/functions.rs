@@ -68,7 +68,7 @@ impl Places {
         if let (Some(contacts), Some(facts)) = (&model.contacts, &level.contacts) {
             let switches = facts.switches.iter().map(|s| contacts.switches[*s].symbol);
             switches.enumerate().for_each(|(i, symbol)| put(symbol, format!("b[{i}]")));
-            let first = facts.switches.len() + facts.changed.len();
+            let first = facts.switches.len() + facts.resets.len();
             let branches = facts.branches.iter().map(|branch| branch.symbol).zip(first..);
             branches.for_each(|(symbol, i)| put(symbol, format!("b[{i}]")));
             let forces = contacts.rows().enumerate();
@@ -168,7 +168,7 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
     ];
     if let (Some(contacts), Some(facts)) = (&subject.model.contacts, &subject.level.contacts) {
         lengths.extend([
-            ("b", facts.switches.len() + facts.changed.len() + facts.branches.len()),
+            ("b", facts.switches.len() + facts.resets.len() + facts.branches.len()),
             ("m", contacts.entries.len()),
             ("f", contacts.rows().count()),
         ]);

@@ -38,7 +38,7 @@ pub use dimensions::{Units, momentum, reaction, residual};
 pub use rates::ChosenRates;
 pub(crate) use rates::nominal;
 pub use resolve::resolve;
-pub(crate) use resolve::resolved;
+pub(crate) use resolve::{resolved, slip_in_only_mode};
 pub(crate) use scenes::is_carried_form;
 
 /// A checked system.

@@ -35,6 +35,7 @@ use crate::syntax::{
     Argument, ArgumentKind, Declaration, Definition, Expression, ExpressionKind, Force as WrittenForce, Item,
     Quantity, Scene, SectionKind,
 };
+pub(crate) use contacts::slip_in_only_mode;
 
 /// Checks names, kinds and forms. `None` if a fault was reported that leaves no model; after faults in what the motion does not need,
 /// such as outputs, forces and contacts, the model is partial.

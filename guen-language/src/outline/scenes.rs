@@ -71,8 +71,11 @@ fn sound(scene: &Scene, declaration: &Declaration, entries: &Entries, forms: &Fo
     Scene { tracks, fixes, provides, modes, ..scene.clone() }
 }
 
-/// Whether some contact has several states in a scene, as far as the statements tell.
+/// Whether a scene runs through modes, as far as the statements tell: some contact has several states, or there are resets, which it may have.
 fn has_several_modes(scene: &Scene, declaration: &Declaration) -> bool {
+    if declaration.items.iter().any(|item| matches!(item, Item::Resets(_))) {
+        return true;
+    }
     let of_system = declaration.items.iter().filter_map(|item| match item {
         Item::Modes(section) => Some(section),
         _ => None,

@@ -46,8 +46,9 @@ pub(super) fn section(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Opt
     section.text.extend(
         switches.map(|switch| format!("{} is a switch: {}", switch.name, graph.text(switch.function))),
     );
-    section.text.extend(contacts.resets.iter().map(|reset| {
-        let given = reset.assignments.iter();
+    section.text.extend(facts.resets.iter().map(|own| {
+        let reset = &contacts.resets[own.reset];
+        let given = own.assignments.iter().map(|(given, _)| &reset.assignments[*given]);
         let given =
             given.map(|(variable, value)| format!("{} = {}", graph.text(*variable), graph.text(*value)));
         let given = given.collect::<Vec<_>>().join(", ");

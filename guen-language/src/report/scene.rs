@@ -31,6 +31,7 @@ pub(super) fn sections(subject: &Subject<'_, '_>) -> Vec<Section> {
             Reason::Provided(what) => format!("{}: `{what}` needs it", name(place)),
             Reason::Contact(contact) => format!("{}: the contact {contact} needs it", name(place)),
             Reason::Switch(switch) => format!("{}: the switch {switch} depends on it", name(place)),
+            Reason::Reset(reset) => format!("{}: the reset {reset} needs it", name(place)),
             Reason::Rate(by) => format!("{}: the rate of {} depends on it", name(place), name(*by)),
             Reason::Whole(by) => format!("{}: of one quaternion with {}", name(place), name(*by)),
         })

@@ -234,6 +234,8 @@ pub struct InMode {
     pub followers: Vec<Name>,
     /// The parameters among them that the scene tracks.
     pub tracked: Vec<String>,
+    /// The variables that resets of the other declaration change.
+    pub reset: Vec<String>,
     /// The mode in words.
     pub words: String,
 }

@@ -25,6 +25,7 @@ mod poles;
 mod random_declarations;
 mod rates;
 mod redundant;
+mod resets_of_scenes;
 mod restricted;
 mod rows_of_bars;
 mod rules_of_bodies;

@@ -96,7 +96,7 @@ pub(in crate::derive) fn programs(
         rows: rows.clone(),
         delassus: delassus.clone(),
         drifts: moves,
-        changed: Vec::new(),
+        resets: Vec::new(),
         branches: held.branches,
         eliminated: Vec::new(),
     };

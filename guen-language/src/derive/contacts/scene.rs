@@ -2,6 +2,9 @@
 //!
 //! A row that no mode of the scene lets move is zero there. Where the scene lacks a variable of such a row, the row and its gap are
 //! numbers.
+//!
+//! A scene has the resets that change a variable which it keeps. A reset that moves a row which is zero there belongs to it, too: behind it
+//! that row has to be looked at.
 
 use std::rc::Rc;
 
@@ -13,7 +16,7 @@ use super::super::fixed::Holding;
 use super::super::parts::View;
 use super::super::selection::{Selection, StateIndex, StatePart};
 use super::programs::{Level, programs};
-use super::{ContactEquations, ContactFacts, ContactFunctions, FreeMotion, limits};
+use super::{ContactEquations, ContactFacts, ContactFunctions, FreeMotion, ResetFacts, limits, resets};
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{ContactEntry, ContactState, Contacts, Model};
 use crate::syntax::Name;
@@ -30,11 +33,18 @@ pub(in crate::derive) struct SceneContacts<'c, 'a> {
     stays_closed: Vec<bool>,
     /// The switches that the scene has.
     pub(in crate::derive) switches: Vec<usize>,
+    /// Every reset of the system, with the places of its variables in the whole state.
+    resets: Vec<ResetFacts>,
+    /// Whether the scene has each of their assignments.
+    assigned: Vec<Vec<bool>>,
+    /// The quantities that the resets of the scene need.
+    of_resets: Vec<(Reason, ExprId)>,
 }
 
 impl<'c, 'a> SceneContacts<'c, 'a> {
-    /// The contacts in these modes, with these switches and without those that nothing has needed yet.
+    /// The contacts in these modes, with these switches, and without switches and resets that nothing has needed yet.
     pub(in crate::derive) fn new(
+        model: &Model<'_>,
         contacts: &'c Contacts<'a>,
         modes: &'c [Vec<usize>],
         equations: &Rc<ContactEquations>,
@@ -53,7 +63,21 @@ impl<'c, 'a> SceneContacts<'c, 'a> {
         }
         let ContactEquations { motions, functions } = &**equations;
         let (motions, functions) = (motions.clone(), functions.clone());
-        SceneContacts { contacts, modes, motions, functions, rests, stays_closed, switches }
+        let resets = resets(model, contacts);
+        let assigned = resets.iter().map(|reset| vec![false; reset.assignments.len()]).collect();
+        let of_resets = Vec::new();
+        SceneContacts {
+            contacts,
+            modes,
+            motions,
+            functions,
+            rests,
+            stays_closed,
+            switches,
+            resets,
+            assigned,
+            of_resets,
+        }
     }
 
     /// Puts in variables that are held as constants.
@@ -62,7 +86,7 @@ impl<'c, 'a> SceneContacts<'c, 'a> {
         motions.chain(self.functions.expressions()).for_each(|e| *e = holding.of(bench, *e));
     }
 
-    /// Reports held variables that the forces of contacts move.
+    /// Reports held variables that the forces of contacts move or a reset changes.
     pub(in crate::derive) fn check_held(&self, model: &mut Model<'_>, held: &[&Name], faults: &mut Faults) {
         for name in held {
             let mover = model.places(&name.text).into_iter().find_map(|place| self.mover(model, place));
@@ -70,8 +94,31 @@ impl<'c, 'a> SceneContacts<'c, 'a> {
                 let fault = Fault::new(name.span(), format!("`{name}` cannot be fixed: it moves"));
                 let fault = fault.note(format!("the forces of `{}` change it", mover.name));
                 faults.report(fault.help("leave it out: what nothing depends on is not kept"));
+                continue;
+            }
+            let changer = model.places(&name.text).into_iter().find_map(|place| self.changer(place));
+            if let Some(changer) = changer {
+                let fault = Fault::new(name.span(), format!("`{name}` cannot be fixed: it moves"));
+                let fault = fault.note(format!("the reset `{changer}` changes it"));
+                faults.report(fault.help("leave it out: what nothing depends on is not kept"));
             }
         }
+    }
+
+    /// Whether this is the name of a contact.
+    pub(in crate::derive) fn has(&self, name: &Name) -> bool {
+        self.contacts.entries.iter().any(|entry| entry.name.text == name.text)
+    }
+
+    /// The name of the first reset of the system that changes a variable.
+    pub(in crate::derive) fn changer(&self, place: StateIndex) -> Option<&'c Name> {
+        let changes = |reset: &&ResetFacts| reset.assignments.iter().any(|(_, changed)| *changed == place);
+        self.resets.iter().find(changes).map(|reset| self.contacts.resets[reset.reset].name)
+    }
+
+    /// Whether the scene has a reset.
+    pub(in crate::derive) fn has_resets(&self) -> bool {
+        self.assigned.iter().flatten().any(|assigned| *assigned)
     }
 
     /// The first contact whose forces change a variable.
@@ -146,7 +193,71 @@ impl<'c, 'a> SceneContacts<'c, 'a> {
             let name = self.contacts.switches[*switch].name.text.clone();
             found.push((Reason::Switch(name), self.functions.switches[*switch]));
         }
+        found.extend(self.of_resets.iter().cloned());
         found
+    }
+
+    /// The gaps and rows that are zero in every mode of the scene.
+    fn resting(&self) -> Vec<ExprId> {
+        let ContactFunctions { gaps, rows, .. } = &self.functions;
+        let gaps = gaps.iter().zip(&self.stays_closed);
+        let resting = gaps.chain(rows.iter().zip(&self.rests));
+        resting.filter(|(_, rests)| **rests).map(|(e, _)| *e).collect()
+    }
+
+    /// The coordinates that must not be replaced by what these equations say of them: a reset may break the equations in which they are.
+    pub(in crate::derive) fn reset_coordinates(
+        &self,
+        bench: &mut Workbench,
+        dependence: &mut Dependence,
+        (coordinates, equations): (&[Option<ExprId>], &[ExprId]),
+    ) -> Vec<StateIndex> {
+        let is_changed = |place: &StateIndex| self.changer(*place).is_some();
+        let mut found: Vec<StateIndex> = (0..coordinates.len()).filter(is_changed).collect();
+        let changed = found.clone();
+        for equation in equations {
+            let on: Vec<StateIndex> = (0..coordinates.len())
+                .filter(|place| coordinates[*place].is_some_and(|x| dependence.depends(bench, *equation, x)))
+                .collect();
+            if on.iter().any(|place| changed.contains(place)) {
+                found.extend(on);
+            }
+        }
+        found
+    }
+
+    /// Takes the resets that change what is kept, and those that change a gap or row which is zero in the scene; whether there are new
+    /// ones among them.
+    ///
+    /// A reset needs its function, its new values, and the gaps, rows and equations on positions that it may break.
+    pub(in crate::derive) fn take_resets(
+        &mut self,
+        bench: &mut Workbench,
+        dependence: &mut Dependence,
+        (variables, equations): (&[Option<ExprId>], &[ExprId]),
+        is_kept: impl Fn(StateIndex) -> bool,
+    ) -> bool {
+        let breakable = [self.resting(), equations.to_vec()].concat();
+        let resting = breakable.len() - equations.len();
+        let (mut is_new, mut first) = (false, 0);
+        for (reset, assigned) in self.resets.iter().zip(&mut self.assigned) {
+            let entry = &self.contacts.resets[reset.reset];
+            let reason = Reason::Reset(entry.name.text.clone());
+            for ((given, place), assigned) in reset.assignments.iter().zip(assigned) {
+                let Some(variable) = variables[*place].filter(|_| !*assigned) else { continue };
+                let mut changes = |e: &ExprId| dependence.depends(bench, *e, variable);
+                if !is_kept(*place) && !breakable[..resting].iter().any(&mut changes) {
+                    continue;
+                }
+                let broken: Vec<ExprId> = breakable.iter().copied().filter(changes).collect();
+                let read =
+                    [variable, self.functions.resets[reset.reset], self.functions.given[first + given]];
+                self.of_resets.extend(read.into_iter().chain(broken).map(|e| (reason.clone(), e)));
+                (*assigned, is_new) = (true, true);
+            }
+            first += entry.assignments.len();
+        }
+        is_new
     }
 
     /// Takes the switches that some expressions depend on; whether there are new ones among them.
@@ -183,7 +294,18 @@ impl<'c, 'a> SceneContacts<'c, 'a> {
         name: Span,
         faults: &mut Faults,
     ) -> Option<(Programs, ContactFacts)> {
-        let SceneContacts { contacts, modes, motions, functions, rests, stays_closed, switches } = self;
+        let SceneContacts {
+            contacts,
+            modes,
+            motions,
+            functions,
+            rests,
+            stays_closed,
+            switches,
+            resets,
+            assigned,
+            ..
+        } = self;
         let motions = motions_of(model, view, selection, &motions);
         let zero = model.bench.graph.zero();
         // On the constraints of all modes of the scene.
@@ -192,9 +314,23 @@ impl<'c, 'a> SceneContacts<'c, 'a> {
             if rests && view.is_lost(model, replaced) { zero } else { view.of(model, e) }
         };
         let mut seen = functions.clone();
-        // A scene has none.
         seen.resets.clear();
         seen.given.clear();
+        let mut own: Vec<ResetFacts> = Vec::new();
+        let mut first = 0;
+        for (ResetFacts { reset, assignments }, assigned) in resets.into_iter().zip(assigned) {
+            let place = |place: StateIndex| selection.variables.iter().position(|known| *known == place);
+            let taken = assignments.into_iter().zip(assigned).filter(|(_, assigned)| *assigned);
+            let assignments: Vec<(usize, usize)> =
+                taken.filter_map(|((given, variable), _)| Some((given, place(variable)?))).collect();
+            let values = &functions.given[first..];
+            first += contacts.resets[reset].assignments.len();
+            if !assignments.is_empty() {
+                seen.given.extend(assignments.iter().map(|(given, _)| view.of(model, values[*given])));
+                seen.resets.push(view.of(model, functions.resets[reset]));
+                own.push(ResetFacts { reset, assignments });
+            }
+        }
         for (gap, rests) in seen.gaps.iter_mut().zip(&stays_closed) {
             *gap = or_rest(model, view, *gap, *rests);
         }
@@ -223,7 +359,9 @@ impl<'c, 'a> SceneContacts<'c, 'a> {
         let limits = limits(model);
         let level =
             Level { modes, switches: &switches, motions: &motions, functions: &seen, limits: &limits };
-        programs(&mut model.bench, contacts, &level, name, faults)
+        let (programs, mut facts) = programs(&mut model.bench, contacts, &level, name, faults)?;
+        facts.resets = own;
+        Some((programs, facts))
     }
 }
 

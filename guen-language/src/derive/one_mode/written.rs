@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use guen_symbolic::ExprId;
 use proc_macro2::{Ident, Span};
 
 use super::{Part, not_held, words};
@@ -85,7 +86,14 @@ pub(super) fn in_mode(
     });
     let contacts_held = held.collect();
     let mode = words(contacts, scene.single_mode()?);
-    let in_mode = InMode { contacts: contacts_held, followers, tracked, words: mode };
+    let reset = contacts.resets.iter().flat_map(|reset| &reset.assignments);
+    let (_, size) = model.sizes();
+    let name = |variable: ExprId| {
+        let place = (0..size).find(|place| model.variable(*place) == variable)?;
+        Some(model.variable_name(place).to_owned())
+    };
+    let reset = reset.filter_map(|(variable, _)| name(*variable)).collect();
+    let in_mode = InMode { contacts: contacts_held, followers, tracked, reset, words: mode };
     Some(Declaration {
         items,
         origins,

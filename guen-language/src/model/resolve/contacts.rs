@@ -17,6 +17,7 @@ use crate::model::contact::{ContactEntry, ContactKind, Row, SwitchEntry};
 use crate::model::value::ContactValue;
 use crate::syntax::{Clause, ClauseWord, Contact, StatesType, Switch, type_of_states};
 
+pub(crate) use assembled::slip_in_only_mode;
 pub(super) use assembled::{assembled, modes_of_scene};
 
 /// A contact on its way into the model: with the structure of its rows.

@@ -9,6 +9,10 @@ const VARIABLES: &str = "a reset gives new values to coordinates, parameters and
 impl<'a> Resolver<'a, '_> {
     /// `name: e rises, variable = e, ..;` of `resets`.
     pub(super) fn reset(&mut self, reset: &'a Reset) {
+        if self.declaration.in_mode.is_some() {
+            // They change nothing there, and what they change may follow from other variables.
+            return;
+        }
         self.eval.entry = Some(reset.name.text.clone());
         let before = self.eval.faults.count();
         self.eval.scope.declare(self.eval.faults, &reset.name, Category::Reset, None);

@@ -101,28 +101,38 @@ pub(in crate::model::resolve) fn modes_of_scene(
     scene: &Scene,
     faults: &mut Faults,
 ) -> Option<SceneModes> {
-    if let Some(reset) = resets.first() {
-        let text = format!("the scene `{}` would leave out the reset `{}`", scene.name, reset.name);
-        let fault = Fault::new(scene.keyword, text).note("scenes have no resets so far");
-        faults.report(fault.help("run the system itself"));
-        return None;
-    }
     let left = match scene.modes.is_empty() {
         // A fault in the modes of the system was reported.
         true => modes?.to_vec(),
         false => super::super::modes::of_scene((entries, missing), modes, scene, faults)?,
     };
     let [mode] = &left[..] else { return Some(SceneModes::Several(left)) };
-    let keyword = scene.modes.first().map_or(scene.keyword, |section| section.keyword);
-    for (entry, state) in entries.iter().zip(mode) {
-        let state = entry.states()[*state];
-        if matches!(state, ContactState::Slip | ContactState::SlipPlus | ContactState::SlipMinus) {
-            let text = format!("`{}` slips in the only mode of scene `{}`", entry.name, scene.name);
-            let fault = Fault::new(keyword, text);
-            let fault = fault.note("friction gives the force of a contact that slips, and a scene in one mode has constraints alone");
-            faults.report(fault.help("run the system itself, or its `in_mode`"));
-            return None;
-        }
+    // A scene that has resets runs through its mode, and there contacts slip. The derivation tells which it has.
+    if resets.is_empty()
+        && let Some(fault) = slip_in_only_mode(entries, mode, scene)
+    {
+        faults.report(fault);
+        return None;
     }
     Some(SceneModes::One(mode.clone()))
+}
+
+/// Refuses a contact that slips in the only mode of a scene.
+pub(crate) fn slip_in_only_mode(
+    entries: &[&ContactEntry<'_>],
+    mode: &[usize],
+    scene: &Scene,
+) -> Option<Fault> {
+    let slips = |entry: &ContactEntry<'_>, state: usize| {
+        let state = entry.states()[state];
+        matches!(state, ContactState::Slip | ContactState::SlipPlus | ContactState::SlipMinus)
+    };
+    let entry = entries.iter().zip(mode).find(|(entry, state)| slips(entry, **state))?.0;
+    let text = format!("`{}` slips in the only mode of scene `{}`", entry.name, scene.name);
+    let keyword = scene.modes.first().map_or(scene.keyword, |section| section.keyword);
+    let fault = Fault::new(keyword, text);
+    let fault = fault.note(
+        "friction gives the force of a contact that slips, and a scene in one mode has constraints alone",
+    );
+    Some(fault.help("run the system itself, or its `in_mode`"))
 }
