@@ -95,7 +95,7 @@ mechanical_system! {
         resets {
             wall: x + 1/2 falls, v = -e*v, hits = hits + 1;
             tick: clock - period rises, clock = 0, gain = gain/2 + far + push/4;
-            kicked: y + 1/8 falls, w = w + kick, watch = 0;
+            kicked: y falls, w = w + kick, watch = 0;
         }
         outputs { seen = x + y; }
         scene Left { track x; }

@@ -123,7 +123,7 @@ where
         if let Function::Signal(s) = function
             && !H::SIGNALS[s].is_switch()
         {
-            if self.sides.signals[s] == 0.0 && self.side(function, before.t) <= 0 {
+            if self.sides.signals[s] == 0.0 && !self.has_left(function, (before.t, a.value)) {
                 return self.comes_back(function, before.t, (after.t, b.value));
             }
             if a.value < 0.0 && a.tangent[0] > 0.0 && b.value < 0.0 && b.tangent[0] < 0.0 {
@@ -196,9 +196,17 @@ where
             return None;
         }
         let mut parts = (1..=HALVINGS).map(|k| a + (b - a) * libm::exp2(-f64::from(k)));
-        let above = parts.find(|t| self.side(function, *t) > 0)?;
-        let high = self.value(function, above);
+        let (above, high) = parts.find_map(|t| {
+            let value = self.value(function, t);
+            self.has_left(function, (t, value)).then_some((t, value))
+        })?;
         self.falling(function, (above, high), (b, low))
+    }
+
+    /// Whether the function of a reset that waits is on the side from which it goes through zero: further from it than where the mode
+    /// begins, which is a zero that was located up to rounding.
+    fn has_left(&mut self, function: Function, (t, value): (f64, f64)) -> bool {
+        self.side(function, t) > 0 && !(self.first && value <= self.value(function, self.start))
     }
 
     /// The falling zero between two times at which the function of a reset is negative, if it is positive between them.

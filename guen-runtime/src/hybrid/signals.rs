@@ -2,7 +2,7 @@
 
 use crate::hybrid::element::Effect;
 use crate::hybrid::located::side;
-use crate::hybrid::place::Place;
+use crate::hybrid::place::{Fired, Place};
 use crate::hybrid::select::Sign;
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::vanishing::ROUNDING;
@@ -37,6 +37,17 @@ where
             if anew || self.sides.signals[s] == 0.0 {
                 let inside = side(&self.in_mode, &self.sides, Function::Signal(s), self.t, &self.state) > 0;
                 self.sides.signals[s] = if inside { 1.0 } else { 0.0 };
+            }
+        }
+    }
+
+    /// Lets resets wait that have happened and have left their functions where they were: there they are zero, whatever rounding says.
+    pub(super) fn wait_at_zeros(&mut self, fired: &Fired<C, S>, before: &[f64; N]) {
+        let functions = |state: &[f64; N]| self.in_mode.system.signals(self.t, state);
+        let (was, is) = (functions(before), functions(&self.state));
+        for (s, signal) in H::SIGNALS.iter().enumerate() {
+            if fired.signals[s] && !signal.is_switch() && is[s].abs() <= was[s].abs() {
+                self.sides.signals[s] = 0.0;
             }
         }
     }

@@ -100,6 +100,7 @@ where
         next.begins = false;
         next.begin_mode(self, &locks, was_reset);
         next.arm_resets(true);
+        next.wait_at_zeros(fired, &state_before);
 
         let mut elements = fired.elements();
         for (c, takes_part) in elements.iter_mut().enumerate() {
