@@ -1,6 +1,6 @@
 //! The facts of the elements at a transition before it is judged: who touches, what is still.
 
-use core::array::from_fn;
+use crate::hybrid::filled::filled;
 
 use crate::hybrid::element::Kind;
 use crate::hybrid::error::HybridCause;
@@ -21,7 +21,7 @@ where
         let system = &self.in_mode.system;
         let when = system.conditions(self.t, &self.state, &self.in_mode.switches).when;
         let known: [bool; C] =
-            from_fn(|c| self.in_mode.mode.0[c].is_closed() && H::ELEMENTS[c].kind != Kind::Grip);
+            filled(|c| self.in_mode.mode.0[c].is_closed() && H::ELEMENTS[c].kind != Kind::Grip);
         if !anew && !self.begins {
             let contact = |c: usize| !matches!(H::ELEMENTS[c].kind, Kind::Grip | Kind::Latch);
             if !fired.gap.contains(&true) {
@@ -30,12 +30,12 @@ where
             let (gaps, resolution) = (self.free().gaps, self.resolution());
             // A few roundings: bounces that digits tell apart are not touches.
             let at_zero = |c: usize| when[c] > 0.0 && 64.0 * gaps[c].abs() <= resolution[c];
-            return Ok(from_fn(|c| known[c] || contact(c) && (fired.gap[c] || at_zero(c))));
+            return Ok(filled(|c| known[c] || contact(c) && (fired.gap[c] || at_zero(c))));
         }
         let zero = |_| RunningError::exact(0.0);
         let switches = self.in_mode.switches.map(RunningError::exact);
         let state = self.state.map(RunningError::once);
-        let gaps = system.free_motion(RunningError::once(self.t), &state, &switches, &from_fn(zero)).gaps;
+        let gaps = system.free_motion(RunningError::once(self.t), &state, &switches, &filled(zero)).gaps;
         let mut touches = [false; C];
         for c in 0..C {
             let contact = H::ELEMENTS[c].name;
@@ -61,7 +61,7 @@ where
         let switches = self.in_mode.switches.map(RunningError::exact);
         let state = self.state.map(RunningError::once);
         let free =
-            self.in_mode.system.free_motion(RunningError::once(self.t), &state, &switches, &from_fn(zero));
+            self.in_mode.system.free_motion(RunningError::once(self.t), &state, &switches, &filled(zero));
         for (c, element) in H::ELEMENTS.iter().enumerate() {
             if let (Kind::Latch, Some(row)) = (element.kind, element.normal)
                 && vanishes(free.gaps[c])
@@ -102,7 +102,7 @@ where
         let instant = f64::EPSILON * self.t.abs();
         let is_momentary =
             |&row: &usize| !anew && rates[row].value.abs() <= instant * accelerations[row].abs();
-        from_fn(|c| {
+        filled(|c| {
             let (element, state) = (&H::ELEMENTS[c], self.in_mode.mode.0[c]);
             let vanish = |rows: &[usize]| rows.iter().all(|&row| vanishes(rates[row]));
             let closed = state.is_closed() && !anew && element.kind != Kind::Grip;

@@ -1,6 +1,6 @@
 //! Impacts by Poisson's law: compression and expansion, each one complementarity problem over the Delassus matrix.
 
-use core::array::from_fn;
+use crate::hybrid::filled::filled;
 
 use crate::hybrid::element::{Element, Kind};
 use crate::hybrid::phase::{Participant, Phase, Solved, Tangential, Unsolved};
@@ -48,7 +48,7 @@ impl<R: Lift<f64>, const W: usize, const C: usize> Impact<'_, R, W, C> {
 
     /// The phase in which what closes is stopped.
     pub(super) fn compression(&self) -> Phase<'_, R, W, C> {
-        let participants: [Participant<R>; C] = from_fn(|c| match self.elements[c].kind {
+        let participants: [Participant<R>; C] = filled(|c| match self.elements[c].kind {
             _ if !self.takes_part[c] => Participant::Absent,
             Kind::Latch => Participant::Locked,
             Kind::Grip => Participant::Grip,
@@ -81,7 +81,7 @@ impl<R: Lift<f64>, const W: usize, const C: usize> Impact<'_, R, W, C> {
 
     /// The contacts that close where all do that take part.
     pub(super) fn all_closed(&self) -> [bool; C] {
-        from_fn(|c| self.takes_part[c] && self.elements[c].normal.is_some())
+        filled(|c| self.takes_part[c] && self.elements[c].normal.is_some())
     }
 }
 
@@ -90,7 +90,7 @@ impl<const W: usize, const C: usize> Impact<'_, f64, W, C> {
     pub(super) fn solve(&self) -> Result<Struck<W, C>, Unsolved> {
         let compression = self.compression().solve()?;
         let expansion = self.expansion(&compression).solve()?;
-        let impulses: [f64; W] = from_fn(|w| compression.impulses[w] + expansion.impulses[w]);
+        let impulses: [f64; W] = filled(|w| compression.impulses[w] + expansion.impulses[w]);
         let struck = self.summed(impulses, &expansion.closed, &expansion.tangential);
         let work: f64 = impulses.iter().zip(&self.before).map(|(l, rate)| (l * rate).abs()).sum();
         if struck.energy > GAIN * work {
@@ -108,7 +108,7 @@ impl<const W: usize, const C: usize> Impact<'_, f64, W, C> {
 
     /// The one phase of such an impact.
     pub(super) fn closed_like(&self, like: &Struck<W, C>) -> Option<Solved<f64, W, C>> {
-        let tangential: [Tangential; C] = from_fn(|c| {
+        let tangential: [Tangential; C] = filled(|c| {
             if like.sticks[c] {
                 Tangential::Stick
             } else {
@@ -119,21 +119,20 @@ impl<const W: usize, const C: usize> Impact<'_, f64, W, C> {
     }
 
     fn summed(&self, impulses: [f64; W], closed: &[bool; C], tangential: &[Tangential; C]) -> Struck<W, C> {
-        let after: [f64; W] = from_fn(|w| {
+        let after: [f64; W] = filled(|w| {
             self.before[w] + impulses.iter().zip(&self.delassus[w]).map(|(l, d)| l * d).sum::<f64>()
         });
         let energy = impulses.iter().zip(&self.before).zip(&after).map(|((l, a), b)| 0.5 * l * (a + b)).sum();
-        let sticks = from_fn(|c| self.takes_part[c] && tangential[c] == Tangential::Stick);
+        let sticks = filled(|c| self.takes_part[c] && tangential[c] == Tangential::Stick);
         Struck { impulses, after, closed: *closed, sticks, energy }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use core::array::from_fn;
-
     use super::{Impact, Struck, Unsolved};
     use crate::hybrid::element::{Element, Kind};
+    use crate::hybrid::filled::{filled, table};
     use crate::hybrid::loads::Loads;
 
     /// Numbers between minus one and one, from a seed.
@@ -147,8 +146,8 @@ mod tests {
 
         /// A symmetric positive definite matrix: rows times their transposes, in `rank` dimensions.
         fn delassus<const W: usize>(&mut self, rank: usize) -> [[f64; W]; W] {
-            let rows: [[f64; 12]; W] = from_fn(|_| from_fn(|k| if k < rank { self.next() } else { 0.0 }));
-            from_fn(|i| from_fn(|j| rows[i].iter().zip(&rows[j]).map(|(a, b)| a * b).sum()))
+            let rows: [[f64; 12]; W] = table(|_, k| if k < rank { self.next() } else { 0.0 });
+            table(|i, j| rows[i].iter().zip(&rows[j]).map(|(a, b)| a * b).sum())
         }
     }
 
@@ -165,7 +164,7 @@ mod tests {
     }
 
     fn product<const W: usize>(d: &[[f64; W]; W], x: &[f64; W]) -> [f64; W] {
-        from_fn(|i| (0..W).map(|j| d[i][j] * x[j]).sum())
+        filled(|i| (0..W).map(|j| d[i][j] * x[j]).sum())
     }
 
     #[test]
@@ -175,8 +174,8 @@ mod tests {
         let mut random = Random(7);
         for _ in 0..40 {
             let delassus = random.delassus::<3>(6);
-            let before: [f64; 3] = from_fn(|_| random.next());
-            let restitutions: [f64; 3] = from_fn(|_| random.next().abs());
+            let before: [f64; 3] = filled(|_| random.next());
+            let restitutions: [f64; 3] = filled(|_| random.next().abs());
             let impact = Impact {
                 elements: &ELEMENTS,
                 delassus: &delassus,
@@ -190,9 +189,9 @@ mod tests {
             let compression = relaxed(&delassus, &before);
             let change = product(&delassus, &compression);
             // Expansion, in the variables beyond their lower bounds.
-            let floor: [f64; 3] = from_fn(|i| restitutions[i] * compression[i]);
+            let floor: [f64; 3] = filled(|i| restitutions[i] * compression[i]);
             let pushed = product(&delassus, &floor);
-            let beyond = relaxed(&delassus, &from_fn(|i| before[i] + change[i] + pushed[i]));
+            let beyond = relaxed(&delassus, &filled(|i| before[i] + change[i] + pushed[i]));
             for i in 0..3 {
                 let expected = compression[i] + floor[i] + beyond[i];
                 assert!(
@@ -221,9 +220,9 @@ mod tests {
         let (mut solved, mut several, mut gained) = (0, 0, 0);
         for _ in 0..400 {
             let delassus = random.delassus::<4>(8);
-            let mut before: [f64; 4] = from_fn(|_| random.next());
+            let mut before: [f64; 4] = filled(|_| random.next());
             before[0] = -before[0].abs();
-            let friction: [f64; 2] = from_fn(|_| random.next().abs());
+            let friction: [f64; 2] = filled(|_| random.next().abs());
             // Without expansion the whole impact is one phase.
             let mut impact = Impact {
                 elements: &ELEMENTS,
@@ -274,7 +273,7 @@ mod tests {
         let mut slipped = 0;
         for _ in 0..200 {
             let delassus = random.delassus::<3>(7);
-            let mut before: [f64; 3] = from_fn(|_| random.next());
+            let mut before: [f64; 3] = filled(|_| random.next());
             before[0] = -before[0].abs();
             let mu = random.next().abs();
             let impact = Impact {
@@ -340,9 +339,9 @@ mod tests {
         let (mut both, mut refused) = (0, 0);
         for _ in 0..16 {
             let delassus = random.delassus::<6>(12);
-            let mut before: [f64; 6] = from_fn(|_| random.next());
+            let mut before: [f64; 6] = filled(|_| random.next());
             (before[0], before[3]) = (-before[0].abs(), -before[3].abs());
-            let friction: [f64; 2] = from_fn(|_| 0.4 * random.next().abs());
+            let friction: [f64; 2] = filled(|_| 0.4 * random.next().abs());
             let impact = Impact {
                 elements: &ELEMENTS,
                 delassus: &delassus,
@@ -384,13 +383,13 @@ mod tests {
     /// All twelve contacts that a declaration may have hit at once: `2^12` states in each phase.
     #[test]
     fn twelve_smooth_contacts_at_once() {
-        let elements: [Element; 12] = from_fn(|c| Element::smooth("stop", c));
+        let elements: [Element; 12] = core::array::from_fn(|c| Element::smooth("stop", c));
         let mut random = Random(13);
         let delassus = random.delassus::<12>(12);
         let impact = Impact {
             elements: &elements,
             delassus: &delassus,
-            before: from_fn(|_| random.next()),
+            before: filled(|_| random.next()),
             takes_part: [true; 12],
             friction: [0.0; 12],
             loads: &Loads::none().responses,

@@ -1,10 +1,10 @@
 //! A system in one mode: reactions from one small solve over the Delassus matrix, and the smooth system that they make.
 
-use core::array::from_fn;
+use crate::hybrid::filled::filled;
 
 use crate::hybrid::element::{Effect, Element, Signal};
-use crate::hybrid::loads::{self, Loads};
 use crate::hybrid::mode::{ElementState, Mode};
+use crate::hybrid::mode_rows::ModeRows;
 use crate::hybrid::pivots::Pivots;
 use crate::hybrid::system::{FreeMotion, HybridSystem};
 use crate::numbers::dual::Dual;
@@ -80,13 +80,13 @@ impl<R: Real, const N: usize, const W: usize, const C: usize> Reactions<R, N, W,
 
     /// The rates of the rows, `biases + D l`.
     pub fn row_accelerations(&self) -> [R; W] {
-        from_fn(|w| {
-            let mut sum = self.free.biases[w];
-            for (reaction, entry) in self.reactions.iter().zip(&self.free.delassus[w]) {
-                sum = reaction.times_plus(*entry, sum);
+        let mut sums = self.free.biases;
+        for (sum, entries) in sums.iter_mut().zip(&self.free.delassus) {
+            for (reaction, entry) in self.reactions.iter().zip(entries) {
+                *sum = reaction.times_plus(*entry, *sum);
             }
-            sum
-        })
+        }
+        sums
     }
 }
 
@@ -105,7 +105,7 @@ where
     /// rows that depend on others are found, at a state without symmetry. Branches of piecewise functions follow the state, whatever
     /// values they are given.
     pub fn anywhere(system: H, mode: Mode<C>, switches: [bool; S]) -> Self {
-        let state = from_fn(|i| 0.37 + 0.061 * i as f64);
+        let state = filled(|i| 0.37 + 0.061 * i as f64);
         let switches = switches.map(|value| f64::from(u8::from(value)));
         let chosen = Self { follows: true, ..Self::with_switches(system, mode, switches, 0.29, &state) };
         if chosen.pivots.independent().is_empty() {
@@ -135,8 +135,14 @@ where
     /// Chooses the order of elimination anew.
     pub(super) fn choose_pivots(&mut self, t: f64, state: &[f64; N]) {
         let (free, directions) = self.free_motion(t, state);
-        let (matrix, _) = self.equations(&free, &directions);
+        let (matrix, _) = self.rows().equations(&free, &directions);
         self.pivots = self.pivots.chosen(matrix, &diagonal(&free.delassus));
+    }
+
+    /// The rows of the mode, without the system.
+    pub(super) fn rows(&self) -> ModeRows<'_, W, C> {
+        let Self { mode, pivots, leaning, .. } = self;
+        ModeRows { elements: const { &H::ELEMENTS }, mode, pivots, leaning }
     }
 
     /// The mode.
@@ -181,145 +187,27 @@ where
         let mut speeds = [R::zero(); C];
         let needed = |(element, state): (&Element, &ElementState)| element.friction_of_speed && state.slips();
         if H::ELEMENTS.iter().zip(&self.mode.0).any(needed) {
-            let rates = self.system.row_rates(t, state);
-            speeds = from_fn(|c| self.speed(c, &rates));
+            speeds = self.rows().speeds(&self.system.row_rates(t, state));
         }
         let free = self.system.free_motion(t, state, &switches, &speeds);
-        let mut directions = [R::zero(); W];
-        for c in 0..C {
-            let (rows, direction) = self.direction(c, &free.row_rates);
-            for (&row, component) in rows.iter().zip(direction) {
-                directions[row] = component;
-            }
-        }
+        let directions = self.rows().directions(&free.row_rates);
         (free, directions)
-    }
-
-    /// The magnitude of an element's slip; zero where it does not slip.
-    fn speed<R: Lift<f64>>(&self, c: usize, row_rates: &[R; W]) -> R {
-        let (rows, direction) = self.direction(c, row_rates);
-        rows.iter().zip(direction).fold(R::zero(), |sum, (&row, d)| d.times_plus(row_rates[row], sum))
-    }
-
-    /// The rows of an element's slip, and its direction; zero where it does not slip.
-    fn direction<R: Lift<f64>>(&self, c: usize, row_rates: &[R; W]) -> (&'static [usize], [R; 2]) {
-        let rows = H::ELEMENTS[c].tangential;
-        let sign = self.mode.0[c].sign();
-        let zero = R::zero();
-        match rows {
-            _ if sign == 0 => (rows, [zero; 2]),
-            &[first, second] => {
-                let Leaning { direction, speed } = self.leaning[c];
-                if speed == f64::INFINITY {
-                    return (rows, direction.map(R::lift));
-                }
-                let [x, y] = direction.map(|component| R::lift(speed * component));
-                let (x, y) = (row_rates[first] + x, row_rates[second] + y);
-                let inverse = (x * x + y * y).sqrt().recip();
-                (rows, [x * inverse, y * inverse])
-            }
-            _ => (rows, [R::from_ratio(sign.into(), 1), zero]),
-        }
-    }
-
-    /// The equations `G l = r` of the mode, over all rows.
-    pub(super) fn equations<R: Real>(
-        &self,
-        free: &FreeMotion<R, N, W, C>,
-        directions: &[R; W],
-    ) -> ([[R; W]; W], [R; W]) {
-        let mut matrix = free.delassus;
-        let mut right = free.biases.map(|bias| -bias);
-        for (c, element) in H::ELEMENTS.iter().enumerate() {
-            if !self.mode.0[c].slips() {
-                continue;
-            }
-            for &row in self.pivots.all() {
-                let mut along = R::zero();
-                for &t in element.tangential {
-                    along = directions[t].times_plus(free.delassus[row][t], along);
-                }
-                if let Some(load) = element.load {
-                    matrix[row][load] = matrix[row][load].minus_times(free.friction[c], along);
-                }
-                right[row] = free.limits[c].times_plus(along, right[row]);
-            }
-        }
-        (matrix, right)
     }
 
     /// The reactions in this mode at a time and state. Where rows depend on each other they are those with zero along the rows
     /// that were left out.
     pub fn reactions<R: Lift<f64>>(&self, t: R, state: &[R; N]) -> Reactions<R, N, W, C> {
         let (free, directions) = self.free_motion(t, state);
-        let (matrix, right) = self.equations(&free, &directions);
+        let rows = self.rows();
+        let (matrix, right) = rows.equations(&free, &directions);
         let (mut reactions, regularity) = self.pivots.solve(matrix, right, &diagonal(&free.delassus));
-        self.add_friction(&mut reactions, &free.friction, &directions, |c| free.limits[c]);
+        rows.add_friction(&mut reactions, &free.friction, &directions, &free.limits);
         let mut motion = Reactions { free, reactions, directions, loads: [R::zero(); C], regularity };
         if H::ELEMENTS.iter().any(|element| element.loaded_by_constraint) {
             let loads = self.system.loads(t, state, &self.lifted_switches(t, state));
-            self.load(&mut motion, matrix, &loads);
+            rows.load(&mut motion, matrix, &loads, H::PAINLEVE_FREE);
         }
         motion
-    }
-
-    /// Adds the friction of what slips under the reactions of permanent constraints.
-    fn load<R: Real>(&self, motion: &mut Reactions<R, N, W, C>, matrix: [[R; W]; W], loads: &Loads<R, W, C>) {
-        let Reactions { free, directions, .. } = *motion;
-        let slips: [bool; C] = from_fn(|c| H::ELEMENTS[c].loaded_by_constraint && self.mode.0[c].slips());
-        let mut signed: [R; C] =
-            from_fn(|c| loads.free[c] + loads::added(&loads.responses[c], &motion.reactions));
-        if slips.contains(&true) {
-            let sizes = diagonal(&free.delassus);
-            // The reactions that a load of one causes.
-            let caused: [[R; W]; C] = from_fn(|c| {
-                if !slips[c] {
-                    return [R::zero(); W];
-                }
-                let own = |other: usize| if other == c { free.friction[c] } else { R::zero() };
-                let tangential = H::ELEMENTS[c].tangential;
-                let right = from_fn(|row| {
-                    let along = |sum: R, &t: &usize| directions[t].times_plus(free.delassus[row][t], sum);
-                    free.friction[c] * tangential.iter().fold(R::zero(), along)
-                });
-                let (mut caused, _) = self.pivots.solve(matrix, right, &sizes);
-                self.add_friction(&mut caused, &free.friction, &directions, own);
-                caused
-            });
-            let coupling = from_fn(|c| from_fn(|e| loads::added(&loads.responses[c], &caused[e])));
-            if !H::PAINLEVE_FREE {
-                motion.regularity *= loads::regularity(&coupling, &slips);
-            }
-            let found = loads::magnitudes(&signed, &coupling, &slips);
-            for (f, caused) in found.iter().zip(&caused) {
-                for (reaction, part) in motion.reactions.iter_mut().zip(caused) {
-                    *reaction = f.times_plus(*part, *reaction);
-                }
-            }
-            for (load, row) in signed.iter_mut().zip(&coupling) {
-                *load += loads::added(row, &found);
-            }
-        }
-        motion.loads = from_fn(|c| signed[c].abs());
-    }
-
-    /// Adds the reactions of what slips to those of its loads.
-    pub(super) fn add_friction<R: Real>(
-        &self,
-        reactions: &mut [R; W],
-        friction: &[R; C],
-        directions: &[R; W],
-        limit: impl Fn(usize) -> R,
-    ) {
-        for (c, element) in H::ELEMENTS.iter().enumerate() {
-            if self.mode.0[c].slips() {
-                let load = element.load.map_or(R::zero(), |row| reactions[row]);
-                let force = friction[c].times_plus(load, limit(c));
-                for &t in element.tangential {
-                    reactions[t] = -(force * directions[t]);
-                }
-            }
-        }
     }
 
     /// The rates of the state in this mode.
@@ -338,8 +226,7 @@ where
     pub(super) fn at_rest<R: Lift<f64>>(&self, t: R, state: &[R; N], rows: &Pivots<W>) -> [R; N] {
         let switches = self.lifted_switches(t, state);
         let free = self.system.free_motion(t, state, &switches, &[R::zero(); C]);
-        let right = free.row_rates.map(|rate| -rate);
-        let (impulses, _) = rows.solve(free.delassus, right, &[R::one(); W]);
+        let (impulses, _) = rows.solve(free.delassus, negated(free.row_rates), &[R::one(); W]);
         moved(state, &impulses, &free.responses)
     }
 
@@ -354,11 +241,15 @@ where
             }
         }
         let (shifts, _) = rows.solve(free.delassus, right, &[R::one(); W]);
-        let still = from_fn(|i| if i < H::COORDINATES { state[i] } else { R::zero() });
+        let mut still = *state;
+        still[H::COORDINATES.min(N)..].fill(R::zero());
         let at_rest = self.system.free_rates(t, &still, &switches);
         let mut displaced = *state;
         for &row in rows.independent() {
-            let pushed = from_fn(|i| still[i] + free.responses[row][i]);
+            let mut pushed = still;
+            for (entry, change) in pushed.iter_mut().zip(&free.responses[row]) {
+                *entry += *change;
+            }
             let velocities = self.system.free_rates(t, &pushed, &switches);
             for i in 0..H::COORDINATES.min(N) {
                 displaced[i] += shifts[row] * (velocities[i] - at_rest[i]);
@@ -404,8 +295,20 @@ pub(super) fn moved<R: Real, const N: usize, const W: usize>(
 }
 
 /// The diagonal of a matrix.
-pub(super) fn diagonal<R: Copy, const W: usize>(matrix: &[[R; W]; W]) -> [R; W] {
-    from_fn(|w| matrix[w][w])
+pub(super) fn diagonal<R: Real, const W: usize>(matrix: &[[R; W]; W]) -> [R; W] {
+    let mut diagonal = [R::zero(); W];
+    for (w, place) in diagonal.iter_mut().enumerate() {
+        *place = matrix[w][w];
+    }
+    diagonal
+}
+
+/// The other signs.
+pub(super) fn negated<R: Real, const W: usize>(mut values: [R; W]) -> [R; W] {
+    for value in &mut values {
+        *value = -*value;
+    }
+    values
 }
 
 /// The rows whose reactions are unknowns of a mode: normals of what is closed, slips of what sticks.
@@ -478,7 +381,7 @@ pub(super) fn values_of_switches<H, const N: usize, const W: usize, const C: usi
 where
     H: HybridSystem<N, W, C, S>,
 {
-    from_fn(|s| match H::SIGNALS[s].effect {
+    filled(|s| match H::SIGNALS[s].effect {
         Effect::Branch if functions[s] == 0.0 => 0.5,
         Effect::Switch | Effect::Branch => f64::from(u8::from(functions[s] > 0.0)),
         Effect::ResetWhenRising | Effect::ResetWhenFalling => 0.0,
@@ -497,7 +400,7 @@ where
 
     fn along(&self, t: R, state: &[R; N], dt: R, dx: &[R; N]) -> [R; N] {
         let time = Dual { value: t, tangent: [dt] };
-        let state = from_fn(|i| Dual { value: state[i], tangent: [dx[i]] });
+        let state = filled(|i| Dual { value: state[i], tangent: [dx[i]] });
         self.rates(time, &state).map(|rate| rate.tangent[0])
     }
 }
@@ -532,7 +435,7 @@ where
     fn series(&self, t: R, state: &[R; N], scale: R, order: usize, coefficients: &mut Coefficients<R, N>) {
         let series = motion_series((t, state), scale, order, |t, state| self.rates(t, state));
         for (k, coefficients) in coefficients.iter_mut().enumerate().take(order + 1) {
-            *coefficients = from_fn(|i| series[i].coefficient(k));
+            *coefficients = filled(|i| series[i].coefficient(k));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The jump of the state at a transition with its derivative along one direction: resets, and impacts with the states that their contacts take.
 
-use core::array::from_fn;
+use crate::hybrid::filled::filled;
 
 use crate::hybrid::impact::Impact;
 use crate::hybrid::in_mode::{InMode, moved};
@@ -36,7 +36,7 @@ impl<M, const N: usize, const W: usize, const C: usize> Transition<M, N, W, C> {
         }
         let Some(takes_part) = self.facts.takes_part else { return Ok(state) };
         let rates = system.row_rates(t, &state);
-        let speeds = from_fn(|c| {
+        let speeds = filled(|c| {
             let square = H::ELEMENTS[c]
                 .tangential
                 .iter()
@@ -92,7 +92,7 @@ fn impulses<const W: usize, const C: usize>(
     let phase = values.expansion(&compression);
     let expansion = phase.solve().map_err(unsolved)?;
     let expanded = undivided(&phase, &moving.expansion(&compressed), &expansion)?;
-    Ok(from_fn(|w| compressed.impulses[w] + expanded.impulses[w]))
+    Ok(filled(|w| compressed.impulses[w] + expanded.impulses[w]))
 }
 
 /// The solution of a phase with its derivative, which is the same in all states of the elements that have this solution.

@@ -3,7 +3,7 @@
 //! The reaction is affine in those of the contacts, `lambda = free + responses l`. A grip that slips has `l_t = -mu |lambda| d`, so that its
 //! load appears on both sides: with the magnitudes `f` as forces given from outside, `f = |free + coupling f|`.
 
-use core::array::from_fn;
+use crate::hybrid::filled::{filled, table};
 
 use crate::numbers::real::Real;
 
@@ -50,10 +50,10 @@ pub(super) fn magnitudes<R: Real, const C: usize>(
     slips: &[bool; C],
 ) -> [R; C] {
     let (zero, one) = (R::zero(), R::one());
-    let mut signs: [R; C] = from_fn(|c| if slips[c] { free[c].where_above(zero, one, -one) } else { zero });
+    let mut signs: [R; C] = filled(|c| if slips[c] { free[c].where_above(zero, one, -one) } else { zero });
     let mut found = [zero; C];
     for _ in 0..STEPS {
-        let right = from_fn(|c| signs[c] * free[c]);
+        let right = filled(|c| signs[c] * free[c]);
         (found, _) = solved(matrix(coupling, &signs), right);
         let Some(c) = (0..C).find(|&c| slips[c] && (-found[c]).most() > 0.0) else { return found };
         signs[c] = found[c].where_above(zero, signs[c], -signs[c]);
@@ -69,7 +69,7 @@ pub(super) fn regularity<R: Real, const C: usize>(coupling: &[[R; C]; C], slips:
     let mut least = R::one();
     for pattern in 0..1_usize << count {
         let mut rest = pattern;
-        let signs = from_fn(|c| {
+        let signs = filled(|c| {
             if !slips[c] {
                 return R::zero();
             }
@@ -85,11 +85,9 @@ pub(super) fn regularity<R: Real, const C: usize>(coupling: &[[R; C]; C], slips:
 
 /// `I - S coupling`.
 fn matrix<R: Real, const C: usize>(coupling: &[[R; C]; C], signs: &[R; C]) -> [[R; C]; C] {
-    from_fn(|c| {
-        from_fn(|e| {
-            let own = if c == e { R::one() } else { R::zero() };
-            own.minus_times(signs[c], coupling[c][e])
-        })
+    table(|c, e| {
+        let own = if c == e { R::one() } else { R::zero() };
+        own.minus_times(signs[c], coupling[c][e])
     })
 }
 

@@ -1,6 +1,6 @@
 //! One phase of an impact: normal complementarity and Coulomb's law between impulses and the rates after them, solved by enumeration.
 
-use core::array::from_fn;
+use crate::hybrid::filled::{filled, table};
 use core::f64::consts::TAU;
 
 use crate::hybrid::element::Element;
@@ -19,9 +19,10 @@ pub(super) enum Unsolved {
 }
 
 /// The part of an element in a phase.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum Participant<R = f64> {
     /// No part.
+    #[default]
     Absent,
     /// A contact: `0 <= gamma_n` is complementary to `Lambda_n - floor >= 0`.
     Contact { floor: R },
@@ -44,9 +45,10 @@ impl<R> Participant<R> {
 }
 
 /// The tangential state of an element in a phase.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum Tangential<R = f64> {
     /// There is no tangential impulse to speak of.
+    #[default]
     None,
     Stick,
     /// Slip in the direction of this unit vector.
@@ -98,7 +100,7 @@ const ROUNDING: f64 = 1e-11;
 const DIFFERENT: f64 = 1e-7;
 
 /// A state of one element that is tried.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Choice {
     closed: bool,
     tangential: Tangential,
@@ -132,7 +134,7 @@ impl<const W: usize, const C: usize> Phase<'_, f64, W, C> {
 
     /// Visits the states of all elements whose impulses satisfy the laws, with their violation by rounding.
     pub(super) fn visit(&self, visit: &mut dyn FnMut(&Solved<f64, W, C>, f64)) -> Result<(), Unsolved> {
-        let choices: [([Choice; 8], usize); C] = from_fn(|c| self.choices(c));
+        let choices: [([Choice; 8], usize); C] = filled(|c| self.choices(c));
         let count = choices.iter().fold(1_usize, |product, (_, length)| product.saturating_mul(*length));
         if count > MAX_COMBINATIONS {
             return Err(Unsolved::None);
@@ -323,9 +325,9 @@ impl<R: Real, const W: usize, const C: usize> Phase<'_, R, W, C> {
                 }
             }
         }
-        let right: [R; W] = from_fn(|w| -added(self.before[w], &known, &matrix[w]));
+        let right: [R; W] = filled(|w| -added(self.before[w], &known, &matrix[w]));
         let found = solve_some(&matrix, &right, &unknown)?;
-        let mut impulses: [R; W] = from_fn(|w| known[w] + found[w]);
+        let mut impulses: [R; W] = filled(|w| known[w] + found[w]);
         let add_friction = |impulses: &mut [R; W]| {
             for (c, element) in self.elements.iter().enumerate() {
                 let (Tangential::Slip(direction), Some(load)) = (tangential[c], element.load) else {
@@ -337,9 +339,8 @@ impl<R: Real, const W: usize, const C: usize> Phase<'_, R, W, C> {
             }
         };
         add_friction(&mut impulses);
-        let slips: [bool; C] = from_fn(|c| {
-            self.elements[c].loaded_by_constraint && matches!(tangential[c], Tangential::Slip(_))
-        });
+        let slips: [bool; C] =
+            filled(|c| self.elements[c].loaded_by_constraint && matches!(tangential[c], Tangential::Slip(_)));
         if slips.contains(&true) {
             // The impulses that a load of one causes.
             let mut caused = [[zero; W]; C];
@@ -349,15 +350,15 @@ impl<R: Real, const W: usize, const C: usize> Phase<'_, R, W, C> {
                     let parts = element.tangential.iter().zip(direction);
                     parts.fold(zero, |sum, (&t, d)| sum + d * self.delassus[w][t])
                 };
-                let right: [R; W] = from_fn(|w| self.friction[c] * along(w));
+                let right: [R; W] = filled(|w| self.friction[c] * along(w));
                 caused[c] = solve_some(&matrix, &right, &unknown)?;
                 add_friction(&mut caused[c]);
                 for (&t, d) in element.tangential.iter().zip(direction) {
                     caused[c][t] = -(self.friction[c] * d);
                 }
             }
-            let free = from_fn(|c| loads::added(&self.loads[c], &impulses));
-            let coupling = from_fn(|c| from_fn(|e| loads::added(&self.loads[c], &caused[e])));
+            let free = filled(|c| loads::added(&self.loads[c], &impulses));
+            let coupling = table(|c, e| loads::added(&self.loads[c], &caused[e]));
             let found = loads::magnitudes(&free, &coupling, &slips);
             for (f, caused) in found.iter().zip(&caused) {
                 for (impulse, part) in impulses.iter_mut().zip(caused) {
@@ -365,7 +366,7 @@ impl<R: Real, const W: usize, const C: usize> Phase<'_, R, W, C> {
                 }
             }
         }
-        let after: [R; W] = from_fn(|w| added(self.before[w], &impulses, &self.delassus[w]));
+        let after: [R; W] = filled(|w| added(self.before[w], &impulses, &self.delassus[w]));
         let finite = after.iter().all(|rate| rate.to_f64().is_finite());
         finite.then_some(Solved { impulses, after, closed: *closed, tangential: *tangential })
     }
@@ -387,7 +388,7 @@ pub(super) fn solve_some<R: Real, const W: usize>(
     const DEPENDENT: f64 = 1e-11;
 
     let (mut matrix, mut right) = (*matrix, *right);
-    let mut rows: [usize; W] = from_fn(|w| w);
+    let mut rows: [usize; W] = filled(|w| w);
     let mut columns = rows;
     let mut count = 0;
     for w in 0..W {

@@ -1,6 +1,6 @@
 //! The place of a run between two steps, and the functions that have fired there.
 
-use core::array::from_fn;
+use crate::hybrid::filled::filled;
 
 use crate::hybrid::in_mode::InMode;
 use crate::hybrid::watched::{Function, Sides};
@@ -52,7 +52,7 @@ impl<const C: usize, const S: usize> Fired<C, S> {
 
     /// The elements of which a function has reached zero.
     pub(super) fn elements(&self) -> [bool; C] {
-        from_fn(|c| self.gap[c] || self.normal[c] || self.cone[c] != [false; 2] || self.slip[c])
+        filled(|c| self.gap[c] || self.normal[c] || self.cone[c] != [false; 2] || self.slip[c])
     }
 }
 

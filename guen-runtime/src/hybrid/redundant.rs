@@ -1,12 +1,12 @@
 //! Modes whose reactions are not determined: which combinations of inequalities have to hold for some reactions to lie in all cones.
 
-use core::array::from_fn;
-
 use crate::hybrid::element::Kind;
 use crate::hybrid::in_mode::{InMode, Reactions};
 use crate::hybrid::mode::ElementState;
+use crate::hybrid::mode_rows::ModeRows;
 use crate::hybrid::system::HybridSystem;
 use crate::numbers::lift::Lift;
+use crate::numbers::real::Real;
 
 /// Reactions that move nothing which are combined exactly: with more of them the reactions of least norm are judged alone.
 const MAX_FREE: usize = 2;
@@ -22,22 +22,30 @@ struct Inequality<R> {
     changes: [R; MAX_FREE],
 }
 
+impl<R: Real> Inequality<R> {
+    /// The largest change.
+    fn size(&self) -> f64 {
+        let mut most = 0.0_f64;
+        for change in self.changes {
+            most = most.max(change.to_f64().abs());
+        }
+        most
+    }
+
+    /// The length of the changes, by the sum of their magnitudes.
+    fn length(&self) -> R {
+        self.changes[0].abs() + self.changes[1].abs()
+    }
+
+    fn cross(&self, other: &Self) -> R {
+        self.changes[0] * other.changes[1] - self.changes[1] * other.changes[0]
+    }
+}
+
 impl<H, const N: usize, const W: usize, const C: usize, const S: usize> InMode<H, N, W, C, S>
 where
     H: HybridSystem<N, W, C, S>,
 {
-    /// The reactions that move nothing, one for each row that depends on others.
-    fn idle<R: Lift<f64>>(&self, motion: &Reactions<R, N, W, C>) -> impl Iterator<Item = [R; W]> {
-        let (matrix, _) = self.equations(&motion.free, &motion.directions);
-        self.pivots.dependent().iter().map(move |&row| {
-            let right = from_fn(|w| -matrix[w][row]);
-            let (mut idle, _) = self.pivots.solve(matrix, right, &[R::one(); W]);
-            idle[row] = R::one();
-            self.add_friction(&mut idle, &motion.free.friction, &motion.directions, |_| R::zero());
-            idle
-        })
-    }
-
     /// Whether the motion itself is not determined: some reactions that move nothing along the rows of the mode move the system all the
     /// same, by the friction of contacts that slip with different coefficients.
     pub(super) fn is_undetermined(&self, t: f64, state: &[f64; N]) -> bool {
@@ -52,7 +60,10 @@ where
         }
         let motion = self.reactions(t, state);
         let loads = is_loaded.then(|| self.system.loads(t, state, &self.lifted_switches(t, state)));
-        self.idle(&motion).any(|idle| {
+        let rows = self.rows();
+        let (matrix, _) = rows.equations(&motion.free, &motion.directions);
+        self.pivots.dependent().iter().any(|&row| {
+            let idle = rows.idle(&motion, &matrix, row);
             // The load of a grip has to be one number.
             let responses = loads.iter().flat_map(|loads| &loads.responses);
             let mut changes = responses.map(|responses| {
@@ -73,20 +84,42 @@ where
     /// The reactions of least norm among those with the same motion: the same where they are determined.
     #[must_use]
     pub fn with_least_norm<R: Lift<f64>>(&self, motion: &Reactions<R, N, W, C>) -> Reactions<R, N, W, C> {
+        self.rows().with_least_norm(motion)
+    }
+}
+
+impl<const W: usize, const C: usize> ModeRows<'_, W, C> {
+    /// The reactions that move nothing, one along this row, which depends on others; `matrix` is that of the equations.
+    fn idle<R: Lift<f64>, const N: usize>(
+        &self,
+        motion: &Reactions<R, N, W, C>,
+        matrix: &[[R; W]; W],
+        row: usize,
+    ) -> [R; W] {
+        let mut right = [R::zero(); W];
+        for (place, entries) in right.iter_mut().zip(matrix) {
+            *place = -entries[row];
+        }
+        let (mut idle, _) = self.pivots.solve(*matrix, right, &[R::one(); W]);
+        idle[row] = R::one();
+        self.add_friction(&mut idle, &motion.free.friction, &motion.directions, &[R::zero(); C]);
+        idle
+    }
+
+    /// The reactions of least norm among those with the same motion.
+    fn with_least_norm<R: Lift<f64>, const N: usize>(
+        &self,
+        motion: &Reactions<R, N, W, C>,
+    ) -> Reactions<R, N, W, C> {
         let mut least = *motion;
-        if !self.is_redundant() {
+        if !self.pivots.is_redundant() {
             return least;
         }
+        let (matrix, _) = self.equations(&motion.free, &motion.directions);
         // One after the other, each made orthogonal to those before.
         let mut before = [[R::zero(); W]; W];
-        for (k, mut idle) in self.idle(motion).enumerate() {
-            let dot = |a: &[R; W], b: &[R; W]| a.iter().zip(b).fold(R::zero(), |sum, (a, b)| sum + *a * *b);
-            let take = |from: &mut [R; W], along: &[R; W]| {
-                let part = dot(from, along) / dot(along, along);
-                for (entry, direction) in from.iter_mut().zip(along) {
-                    *entry = entry.minus_times(part, *direction);
-                }
-            };
+        for (k, &row) in self.pivots.dependent().iter().enumerate() {
+            let mut idle = self.idle(motion, &matrix, row);
             for earlier in &before[..k] {
                 take(&mut idle, earlier);
             }
@@ -98,96 +131,141 @@ where
 
     /// Visits functions all of which are nonnegative exactly if some reactions with the same motion lie in all cones: the
     /// combinations of inequalities, with nonnegative coefficients, that no reaction without an effect changes.
-    pub(super) fn visit_shared<R: Lift<f64>>(
+    pub(super) fn visit_shared<R: Lift<f64>, const N: usize>(
         &self,
         motion: &Reactions<R, N, W, C>,
         visit: &mut dyn FnMut(R),
     ) {
         let free = self.pivots.dependent().len();
         let mut idle = [[R::zero(); W]; MAX_FREE];
-        let motion = if free > MAX_FREE {
-            self.with_least_norm(motion)
+        let mut motion = *motion;
+        if free > MAX_FREE {
+            motion = self.with_least_norm(&motion);
         } else {
-            for (place, vector) in idle.iter_mut().zip(self.idle(motion)) {
-                *place = vector;
-            }
-            *motion
-        };
-        let inequalities: [[Option<Inequality<R>>; PER_ELEMENT]; C] =
-            from_fn(|c| self.inequalities(c, &motion, &idle));
-        let all = || inequalities.iter().flatten().flatten().enumerate();
-        let size = |inequality: &Inequality<R>| {
-            inequality.changes.iter().fold(0.0_f64, |most, change| most.max(change.to_f64().abs()))
-        };
-        let largest = all().fold(0.0_f64, |most, (_, inequality)| most.max(size(inequality)));
-        let none = VANISHING * largest;
-        let still = |inequality: &Inequality<R>| size(inequality) <= none;
-        for (_, inequality) in all().filter(|(_, inequality)| still(inequality)) {
-            visit(inequality.value);
-        }
-        let moving = || all().filter(|(_, inequality)| !still(inequality));
-        let cross =
-            |a: &Inequality<R>, b: &Inequality<R>| a.changes[0] * b.changes[1] - a.changes[1] * b.changes[0];
-        for (i, a) in moving() {
-            for (j, b) in moving().filter(|(j, _)| *j > i) {
-                if free == 1 {
-                    let (p, q) = (a.changes[0], b.changes[0]);
-                    if p.to_f64() * q.to_f64() < 0.0 {
-                        visit(a.value * q.abs() + b.value * p.abs());
-                    }
-                    continue;
-                }
-                let along = a.changes[0] * b.changes[0] + a.changes[1] * b.changes[1];
-                if cross(a, b).to_f64().abs() <= none * largest && along.to_f64() < 0.0 {
-                    let length = |x: &Inequality<R>| x.changes[0].abs() + x.changes[1].abs();
-                    visit(a.value * length(b) + b.value * length(a));
-                }
-                for (_, c) in moving().filter(|(k, _)| *k > j) {
-                    let parts = [cross(b, c), cross(c, a), cross(a, b)];
-                    let signs = parts.map(|part| part.to_f64());
-                    let nothing = none * largest;
-                    if signs.iter().all(|part| part.abs() <= nothing) {
-                        continue;
-                    }
-                    let sum = parts[0] * a.value + parts[1] * b.value + parts[2] * c.value;
-                    if signs.iter().all(|part| *part >= -nothing) {
-                        visit(sum);
-                    } else if signs.iter().all(|part| *part <= nothing) {
-                        visit(-sum);
-                    }
-                }
+            let (matrix, _) = self.equations(&motion.free, &motion.directions);
+            for (place, &row) in idle.iter_mut().zip(self.pivots.dependent()) {
+                *place = self.idle(&motion, &matrix, row);
             }
         }
+        let none = Inequality { value: R::zero(), changes: [R::zero(); MAX_FREE] };
+        let mut listed = [[none; PER_ELEMENT]; C];
+        let mut count = 0;
+        for c in 0..C {
+            for inequality in self.inequalities(c, &motion, &idle).into_iter().flatten() {
+                listed.as_flattened_mut()[count] = inequality;
+                count += 1;
+            }
+        }
+        visit_combined(&listed.as_flattened()[..count], free, visit);
     }
 
     /// The inequalities of an element's reactions.
-    fn inequalities<R: Lift<f64>>(
+    fn inequalities<R: Lift<f64>, const N: usize>(
         &self,
         c: usize,
         motion: &Reactions<R, N, W, C>,
         idle: &[[R; W]; MAX_FREE],
     ) -> [Option<Inequality<R>>; PER_ELEMENT] {
-        let (element, state) = (&H::ELEMENTS[c], self.mode.0[c]);
+        let (element, state) = (&self.elements[c], self.mode.0[c]);
+        let mut found = [None; PER_ELEMENT];
         if !state.is_closed() || element.kind == Kind::Latch {
-            return [None; PER_ELEMENT];
+            return found;
         }
-        let linear = |value: R, form: &dyn Fn(&[R; W]) -> R| {
-            Some(Inequality { value, changes: from_fn(|k| form(&idle[k])) })
-        };
-        let normal = element.normal.and_then(|row| linear(motion.reactions[row], &|l| l[row]));
+        if let Some(row) = element.normal {
+            let changes = [idle[0][row], idle[1][row]];
+            found[0] = Some(Inequality { value: motion.reactions[row], changes });
+        }
         if state != ElementState::Stick {
-            return [normal, None, None];
+            return found;
         }
         let [plus, minus] = self.margins(c, motion);
         let &[row] = element.tangential else {
             // A spatial cone is not linear: it is judged where it is.
-            return [normal, plus.and_then(|value| linear(value, &|_| R::zero())), None];
+            found[1] = plus.map(|value| Inequality { value, changes: [R::zero(); MAX_FREE] });
+            return found;
         };
-        let limit = |l: &[R; W]| element.load.map_or(R::zero(), |load| motion.free.stiction[c] * l[load]);
-        [
-            normal,
-            plus.and_then(|value| linear(value, &|l| limit(l) - l[row])),
-            minus.and_then(|value| linear(value, &|l| limit(l) + l[row])),
-        ]
+        let (mut above, mut below) = ([R::zero(); MAX_FREE], [R::zero(); MAX_FREE]);
+        for (k, idle) in idle.iter().enumerate() {
+            let limit = match element.load {
+                Some(load) => motion.free.stiction[c] * idle[load],
+                None => R::zero(),
+            };
+            (above[k], below[k]) = (limit - idle[row], limit + idle[row]);
+        }
+        found[1] = plus.map(|value| Inequality { value, changes: above });
+        found[2] = minus.map(|value| Inequality { value, changes: below });
+        found
+    }
+}
+
+/// Takes from a vector its part along another one.
+fn take<R: Real, const W: usize>(from: &mut [R; W], along: &[R; W]) {
+    let part = dot(from, along) / dot(along, along);
+    for (entry, direction) in from.iter_mut().zip(along) {
+        *entry = entry.minus_times(part, *direction);
+    }
+}
+
+fn dot<R: Real, const W: usize>(a: &[R; W], b: &[R; W]) -> R {
+    let mut sum = R::zero();
+    for (a, b) in a.iter().zip(b) {
+        sum += *a * *b;
+    }
+    sum
+}
+
+/// Visits the combinations of inequalities that `free` independent reactions without an effect leave as they are.
+fn visit_combined<R: Real>(all: &[Inequality<R>], free: usize, visit: &mut dyn FnMut(R)) {
+    let mut largest = 0.0_f64;
+    for inequality in all {
+        largest = largest.max(inequality.size());
+    }
+    let none = VANISHING * largest;
+    for inequality in all {
+        if inequality.size() <= none {
+            visit(inequality.value);
+        }
+    }
+    let nothing = none * largest;
+    for (i, a) in all.iter().enumerate() {
+        if a.size() <= none {
+            continue;
+        }
+        for (j, b) in all.iter().enumerate().skip(i + 1) {
+            if b.size() <= none {
+                continue;
+            }
+            if free == 1 {
+                let (p, q) = (a.changes[0], b.changes[0]);
+                if p.to_f64() * q.to_f64() < 0.0 {
+                    visit(a.value * q.abs() + b.value * p.abs());
+                }
+                continue;
+            }
+            let along = a.changes[0] * b.changes[0] + a.changes[1] * b.changes[1];
+            if a.cross(b).to_f64().abs() <= nothing && along.to_f64() < 0.0 {
+                visit(a.value * b.length() + b.value * a.length());
+            }
+            for c in &all[j + 1..] {
+                if c.size() > none {
+                    visit_triple([a, b, c], nothing, visit);
+                }
+            }
+        }
+    }
+}
+
+/// Visits the combination of three inequalities that two reactions without an effect leave as it is, if its coefficients have one sign.
+fn visit_triple<R: Real>([a, b, c]: [&Inequality<R>; 3], nothing: f64, visit: &mut dyn FnMut(R)) {
+    let parts = [b.cross(c), c.cross(a), a.cross(b)];
+    let signs = parts.map(Real::to_f64);
+    if signs.iter().all(|part| part.abs() <= nothing) {
+        return;
+    }
+    let sum = parts[0] * a.value + parts[1] * b.value + parts[2] * c.value;
+    if signs.iter().all(|part| *part >= -nothing) {
+        visit(sum);
+    } else if signs.iter().all(|part| *part <= nothing) {
+        visit(-sum);
     }
 }

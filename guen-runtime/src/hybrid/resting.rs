@@ -1,6 +1,6 @@
 //! Sequences of impacts that accumulate: when one is so slow that what is left of it is closed early.
 
-use core::array::from_fn;
+use crate::hybrid::filled::filled;
 
 use crate::hybrid::element::Kind;
 use crate::hybrid::error::HybridCause;
@@ -36,7 +36,7 @@ impl<const C: usize> Resting<C> {
         /// The relative difference of ratios that agree.
         const AGREEMENT: f64 = 1e-2;
 
-        self.took_part = core::array::from_fn(|c| self.took_part[c] || meets[c]);
+        self.took_part = filled(|c| self.took_part[c] || meets[c]);
         self.last = t;
         self.speeds.rotate_right(1);
         self.speeds[0] = speed;
@@ -179,7 +179,7 @@ where
         if closing.is_none() && lowest {
             // What does not slip before an impact is torn off by it for a time in which nothing moves that digits tell.
             let still = |c: usize| impact.takes_part[c] && known[c].slip == Rate::Still;
-            let held = Struck { sticks: from_fn(|c| struck.sticks[c] || still(c)), ..*struck };
+            let held = Struck { sticks: filled(|c| struck.sticks[c] || still(c)), ..*struck };
             closing = match self.closed(impact, &held) {
                 Some((closed, Ok(next))) if goes_on(&next) => Some(closed),
                 _ => None,
@@ -204,7 +204,7 @@ where
             return None;
         }
         let state = moved(&self.state, &closing.impulses, &self.free().responses);
-        let known: [Known; C] = from_fn(|c| Known {
+        let known: [Known; C] = filled(|c| Known {
             touches: impact.takes_part[c] && H::ELEMENTS[c].kind != Kind::Grip,
             normal: Rate::Still,
             slip: if closing.sticks[c] { Rate::Still } else { Rate::Moving },

@@ -1,6 +1,6 @@
 //! Derivatives of transitions: what becomes of a small deviation of the state, by the motions before and after and by the jump between.
 
-use core::array::from_fn;
+use crate::hybrid::filled::{filled, table};
 use core::error::Error;
 use core::fmt;
 
@@ -40,7 +40,7 @@ pub struct Saltation<const N: usize> {
 impl<const N: usize> Saltation<N> {
     /// The derivatives of the state right after the transition, wherever its time then is: `matrix + f+ time^T`, what a Poincaré map needs.
     pub fn at_transition(&self) -> [[f64; N]; N] {
-        from_fn(|i| from_fn(|j| self.matrix[i][j] + self.rates_after[i] * self.time[j]))
+        table(|i, j| self.matrix[i][j] + self.rates_after[i] * self.time[j])
     }
 }
 
@@ -80,7 +80,7 @@ impl Error for NoSaltation {}
 
 /// Numbers with their derivatives along a direction.
 pub(super) fn along<const N: usize>(values: &[f64; N], direction: &[f64; N]) -> [Along; N] {
-    from_fn(|i| Dual { value: values[i], tangent: [direction[i]] })
+    filled(|i| Dual { value: values[i], tangent: [direction[i]] })
 }
 
 impl<M, const N: usize, const W: usize, const C: usize> Transition<M, N, W, C> {
@@ -164,13 +164,13 @@ impl<M, const N: usize, const W: usize, const C: usize> Transition<M, N, W, C> {
         let mut columns = [[0.0; N]; N];
         for (j, column) in columns.iter_mut().enumerate() {
             // Along the surface on which the function vanishes, and from there at the time of the transition again.
-            let to_surface = from_fn(|i| directions[j][i] + rates[i] * time[j]);
+            let to_surface = filled(|i| directions[j][i] + rates[i] * time[j]);
             let moment = Dual { value: t, tangent: [time[j]] };
             let jumped = self.jumped(before, after, moment, &along(x, &to_surface))?;
-            let back = from_fn(|i| jumped[i].tangent[0] - rates_after[i] * time[j]);
+            let back = filled(|i| jumped[i].tangent[0] - rates_after[i] * time[j]);
             *column = after.allowed_part(t, &self.state_after, &back)?;
         }
-        let matrix: [[f64; N]; N] = from_fn(|i| from_fn(|j| columns[j][i]));
+        let matrix: [[f64; N]; N] = table(|i, j| columns[j][i]);
         let finite = matrix.iter().flatten().chain(&time).all(|entry| entry.is_finite());
         if finite { Ok(Saltation { matrix, time, rates_after }) } else { Err(NoSaltation::NotFinite) }
     }
@@ -284,5 +284,5 @@ where
 
 /// The unit vectors.
 fn unit_matrix<const N: usize>() -> [[f64; N]; N] {
-    from_fn(|i| from_fn(|j| if i == j { 1.0 } else { 0.0 }))
+    table(|i, j| if i == j { 1.0 } else { 0.0 })
 }

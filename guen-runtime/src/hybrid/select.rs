@@ -1,7 +1,7 @@
 //! Selects the mode that follows a transition: every inequality of every mode that fits is expanded in time, and its first derivative that does
 //! not vanish decides.
 
-use core::array::from_fn;
+use crate::hybrid::filled::filled;
 
 use crate::hybrid::element::Kind;
 use crate::hybrid::error::HybridCause;
@@ -176,7 +176,7 @@ where
     H: HybridSystem<N, W, C, S> + Clone,
 {
     let rates = system.row_rates(t, state);
-    let lists: [([ElementState; 4], usize); C] = from_fn(|c| {
+    let lists: [([ElementState; 4], usize); C] = filled(|c| {
         let element = &H::ELEMENTS[c];
         let slip = element.tangential.first().map_or(0.0, |&row| rates[row]);
         candidates(element.kind, element.tangential.len(), &known[c], slip)
@@ -269,7 +269,7 @@ where
             if self.mode.0[c] == ElementState::Stick {
                 // Of two components the margin is a difference of squares.
                 let size = if element.tangential.len() == 2 { largest * largest } else { largest };
-                for margin in self.margins(c, &motion).into_iter().flatten() {
+                for margin in self.rows().margins(c, &motion).into_iter().flatten() {
                     worst = worst.max(-margin / size);
                 }
             }
@@ -333,7 +333,7 @@ where
             if !self.pivots.dependent().iter().all(held) {
                 return Verdict::Inconsistent;
             }
-            self.visit_shared(&motion, &mut |function| demand(&function, 0, false));
+            self.rows().visit_shared(&motion, &mut |function| demand(&function, 0, false));
         }
         for (c, element) in H::ELEMENTS.iter().enumerate() {
             let (state, known) = (self.mode.0[c], &known[c]);
@@ -364,7 +364,7 @@ where
                 demand(&slip, 1, true);
             }
             if state == ElementState::Stick && !redundant {
-                for (margin, fired) in self.margins(c, &motion).into_iter().zip(known.cone_fired) {
+                for (margin, fired) in self.rows().margins(c, &motion).into_iter().zip(known.cone_fired) {
                     if let Some(margin) = margin {
                         demand(&margin, usize::from(fired), false);
                     }

@@ -1,6 +1,6 @@
 //! Derivatives of a motion through modes by its start: the variations within the modes, and the saltations between them.
 
-use core::array::from_fn;
+use crate::hybrid::filled::{filled, table};
 use core::error::Error;
 use core::fmt;
 
@@ -180,7 +180,7 @@ where
             return Err(failed(touch, self.transitions[touch].t, NoSaltation::Grazing));
         }
         let jump = self.saltation(transition).map_err(|why| failed(transition, told.t, why))?;
-        let time = from_fn(|j| (0..N).map(|k| jump.time[k] * matrix[k][j]).sum());
+        let time = filled(|j| (0..N).map(|k| jump.time[k] * matrix[k][j]).sum());
         Ok(TransitionSensitivity { time, state: product(&jump.at_transition(), &matrix) })
     }
 
@@ -197,7 +197,7 @@ where
         if self.is_sampled {
             return Err(SensitivityError::Sampled);
         }
-        let mut matrix: [[f64; N]; N] = from_fn(|i| from_fn(|j| if i == j { 1.0 } else { 0.0 }));
+        let mut matrix: [[f64; N]; N] = table(|i, j| if i == j { 1.0 } else { 0.0 });
         let mut last: Option<&Segment<H, N, W, C, S>> = None;
         for segment in self.log.segments.iter().take(count) {
             if let Some(before) = last {
@@ -222,7 +222,7 @@ where
 
 /// The product of two matrices.
 fn product<const N: usize>(a: &[[f64; N]; N], b: &[[f64; N]; N]) -> [[f64; N]; N] {
-    from_fn(|i| from_fn(|j| (0..N).map(|k| a[i][k] * b[k][j]).sum()))
+    table(|i, j| (0..N).map(|k| a[i][k] * b[k][j]).sum())
 }
 
 /// The deviations that a mode allows where it begins.
@@ -236,7 +236,7 @@ where
     let parts = segment.in_mode.allowed(segment.start, &segment.state);
     let parts =
         parts.map_err(|_| SensitivityError::Integration { t: segment.start, cause: Cause::NotFinite })?;
-    Ok(product(&from_fn(|i| from_fn(|j| parts[j][i])), matrix))
+    Ok(product(&table(|i, j| parts[j][i]), matrix))
 }
 
 /// The deviations at a time, from those at the beginning of a segment.
@@ -253,7 +253,7 @@ where
     if end <= segment.start {
         return Ok(*matrix);
     }
-    let state = from_fn(|i| Dual { value: segment.state[i], tangent: matrix[i] });
+    let state = filled(|i| Dual { value: segment.state[i], tangent: matrix[i] });
     let mut run = method.start(&Checkpoint::new(Dual::constant(segment.start), &state));
     let target = Dual::constant(end);
     while run.checkpoint().time.value != end {

@@ -1,5 +1,6 @@
 //! The end of spatial slip: its last part, in which the direction of the slip no longer turns.
 
+use crate::hybrid::filled::filled;
 use crate::hybrid::in_mode::{InMode, Leaning};
 use crate::hybrid::select::unit;
 use crate::hybrid::system::HybridSystem;
@@ -35,11 +36,11 @@ where
 
     /// One step of the classical method of order four.
     fn after(&self, t: f64, x: &[f64; N], h: f64) -> [f64; N] {
-        let ahead = |part: f64, slope: &[f64; N]| core::array::from_fn(|i| x[i] + part * h * slope[i]);
+        let ahead = |part: f64, slope: &[f64; N]| filled(|i| x[i] + part * h * slope[i]);
         let a: [f64; N] = self.rates(t, x);
         let b = self.rates(t + 0.5 * h, &ahead(0.5, &a));
         let c = self.rates(t + 0.5 * h, &ahead(0.5, &b));
         let d = self.rates(t + h, &ahead(1.0, &c));
-        core::array::from_fn(|i| x[i] + h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]))
+        filled(|i| x[i] + h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]))
     }
 }

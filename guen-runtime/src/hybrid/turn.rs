@@ -1,6 +1,6 @@
 //! A transition: from what fired in one mode to the next mode, with the impact in between.
 
-use core::array::from_fn;
+use crate::hybrid::filled::filled;
 
 use crate::hybrid::element::{Kind, Signal};
 use crate::hybrid::error::HybridCause;
@@ -172,11 +172,11 @@ where
                     && when[c] > 0.0
                     && (was >= 0 && side(c, &state) < 0 || was < 0 && sinks(c))
             };
-            let more: [bool; C] = from_fn(|c| !fired.gap[c] && follows(c));
+            let more: [bool; C] = filled(|c| !fired.gap[c] && follows(c));
             if !more.contains(&true) {
                 break;
             }
-            fired.gap = from_fn(|c| fired.gap[c] || more[c]);
+            fired.gap = filled(|c| fired.gap[c] || more[c]);
         }
         fired
     }
@@ -191,14 +191,14 @@ where
     /// The rows of these that do not depend on each other.
     fn independent(&self, rows: impl Iterator<Item = usize>) -> Pivots<W> {
         let delassus = self.free().delassus;
-        Pivots::in_order(rows).chosen(delassus, &from_fn(|w| delassus[w][w]))
+        Pivots::in_order(rows).chosen(delassus, &filled(|w| delassus[w][w]))
     }
 
     /// The free motion here, with friction at the present slips.
     pub(super) fn free(&self) -> FreeMotion<f64, N, W, C> {
         let system = &self.in_mode.system;
         let rates = system.row_rates(self.t, &self.state);
-        let speeds = from_fn(|c| {
+        let speeds = filled(|c| {
             let square: f64 = H::ELEMENTS[c].tangential.iter().map(|&row| rates[row] * rates[row]).sum();
             libm::sqrt(square)
         });
@@ -222,7 +222,7 @@ where
         if !(0..C).any(|c| meets(c) || locks[c]) {
             return Ok(Strike { impulses: [0.0; W], energy: 0.0, rests: None, takes_part: None });
         }
-        let takes_part: [bool; C] = from_fn(|c| {
+        let takes_part: [bool; C] = filled(|c| {
             touches[c]
                 || locks[c]
                 || known[c].latch == ElementState::Locked
@@ -249,8 +249,8 @@ where
         // What was on its way up and got no impulse has no part in a sequence that is closed.
         let rises = |row: usize| before[row] > 0.0 && struck.impulses[row] == 0.0 && struck.after[row] > 0.0;
         let leaves = |c: usize| known[c].normal == Rate::Moving && H::ELEMENTS[c].normal.is_some_and(rises);
-        let pressed = Impact { takes_part: from_fn(|c| takes_part[c] && !leaves(c)), ..impact };
-        let rests = self.rests(&pressed, &mut struck, resting, from_fn(meets), known)?;
+        let pressed = Impact { takes_part: filled(|c| takes_part[c] && !leaves(c)), ..impact };
+        let rests = self.rests(&pressed, &mut struck, resting, filled(meets), known)?;
         let scale = before.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
         for c in 0..C {
             let element = &H::ELEMENTS[c];

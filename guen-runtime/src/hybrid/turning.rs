@@ -1,6 +1,6 @@
 //! Directions of spatial slip in an impact: how the slip across them changes as they turn, and several of them at once by Newton's method.
 
-use core::array::from_fn;
+use crate::hybrid::filled::filled;
 
 use crate::hybrid::phase::{Phase, Solved, Tangential, solve_some};
 use crate::numbers::dual::Dual;
@@ -28,7 +28,7 @@ impl<const W: usize, const C: usize> Phase<'_, Along, W, C> {
         tangential: &[Tangential<Along>; C],
         solved: &Solved<Along, W, C>,
     ) -> [Along; C] {
-        from_fn(|c| match (tangential[c], self.elements[c].tangential) {
+        filled(|c| match (tangential[c], self.elements[c].tangential) {
             (Tangential::Slip([x, y]), &[first, second]) if turns[c] => {
                 x * solved.after[second] - y * solved.after[first]
             }
@@ -61,12 +61,12 @@ impl<const W: usize, const C: usize> Phase<'_, Along, W, C> {
     /// The solution of a phase in which elements keep their states, with its derivative: directions of spatial slip turn with the slip.
     pub(super) fn with_derivative(&self, solved: &Solved<f64, W, C>) -> Option<Solved<Along, W, C>> {
         let mut tangential = solved.tangential.map(constant);
-        let turns: [bool; C] = from_fn(|c| {
+        let turns: [bool; C] = filled(|c| {
             matches!(tangential[c], Tangential::Slip(_)) && self.elements[c].tangential.len() == 2
         });
         if turns.contains(&true) {
             let angles = self.angles(&turns, &solved.closed, &tangential, |value| value.tangent[0])?;
-            tangential = from_fn(|c| if turns[c] { turn(tangential[c], angles[c]) } else { tangential[c] });
+            tangential = filled(|c| if turns[c] { turn(tangential[c], angles[c]) } else { tangential[c] });
         }
         self.with_states(&solved.closed, &tangential)
     }
@@ -111,7 +111,7 @@ impl<const W: usize, const C: usize> Phase<'_, f64, W, C> {
         let starts = (0..slips).fold(1_usize, |product, _| product * parts);
         for start in 0..starts {
             let mut rest = start;
-            let mut angles: [f64; C] = from_fn(|c| {
+            let mut angles: [f64; C] = filled(|c| {
                 if !turns[c] {
                     return 0.0;
                 }
@@ -120,7 +120,7 @@ impl<const W: usize, const C: usize> Phase<'_, f64, W, C> {
                 angle
             });
             for _ in 0..ITERATIONS {
-                let directed: [Tangential; C] = from_fn(|c| match turns[c] {
+                let directed: [Tangential; C] = filled(|c| match turns[c] {
                     true => Tangential::Slip([libm::cos(angles[c]), libm::sin(angles[c])]),
                     false => tangential[c],
                 });
@@ -137,7 +137,7 @@ impl<const W: usize, const C: usize> Phase<'_, f64, W, C> {
                     break;
                 }
                 let Some(changes) = phase.angles(turns, closed, &lifted, |value| value.value) else { break };
-                angles = from_fn(|c| angles[c] + changes[c].clamp(-LARGEST, LARGEST));
+                angles = filled(|c| angles[c] + changes[c].clamp(-LARGEST, LARGEST));
             }
         }
     }

@@ -1,10 +1,11 @@
 //! The functions watched in a mode: inequalities that hold inside of it, each with a falling zero where the mode ends.
 
-use core::array::from_fn;
+use crate::hybrid::filled::filled;
 
 use crate::hybrid::element::{Effect, Kind};
 use crate::hybrid::in_mode::{InMode, Reactions};
 use crate::hybrid::mode::ElementState;
+use crate::hybrid::mode_rows::ModeRows;
 use crate::hybrid::system::HybridSystem;
 use crate::numbers::dual::Dual;
 use crate::numbers::lift::Lift;
@@ -110,7 +111,7 @@ where
     ) -> Watched<Dual<f64, 1>, C, S> {
         let rates = self.rates(t, state);
         let time = Dual { value: t, tangent: [1.0] };
-        let state = from_fn(|i| Dual { value: state[i], tangent: [rates[i]] });
+        let state = filled(|i| Dual { value: state[i], tangent: [rates[i]] });
         self.watched(sides, time, &state)
     }
 
@@ -124,7 +125,7 @@ where
         let mut elements = [[None; SLOTS]; C];
         let (mut slips, mut locked) = (false, false);
         for (c, slots) in elements.iter_mut().enumerate() {
-            *slots = self.of_element(sides, c, motion);
+            *slots = self.rows().of_element(sides, c, motion);
             slips |= self.mode.0[c].slips() && H::ELEMENTS[c].is_loaded();
             locked |= self.mode.0[c] == ElementState::Locked;
         }
@@ -137,7 +138,7 @@ where
             }
         }
         let values = self.system.signals(t, state);
-        let signals = from_fn(|s| match H::SIGNALS[s].effect {
+        let signals = filled(|s| match H::SIGNALS[s].effect {
             Effect::Switch | Effect::Branch => {
                 (sides.signals[s] != 0.0).then(|| values[s] * R::lift(sides.signals[s]))
             }
@@ -147,7 +148,7 @@ where
         let regularity = (slips && !H::PAINLEVE_FREE).then_some(motion.regularity);
         let mut shared: Option<R> = None;
         if self.is_redundant() {
-            self.visit_shared(motion, &mut |value| {
+            self.rows().visit_shared(motion, &mut |value| {
                 if shared.is_none_or(|least| value.to_f64() < least.to_f64()) {
                     shared = Some(value);
                 }
@@ -155,56 +156,66 @@ where
         }
         Watched { elements, signals, regularity, shared }
     }
+}
 
-    fn of_element<R: Lift<f64>>(
+impl<const W: usize, const C: usize> ModeRows<'_, W, C> {
+    /// The functions watched for an element.
+    fn of_element<R: Lift<f64>, const N: usize, const S: usize>(
         &self,
         sides: &Sides<C, S>,
         c: usize,
         motion: &Reactions<R, N, W, C>,
     ) -> [Option<R>; SLOTS] {
-        let (element, state) = (&H::ELEMENTS[c], self.mode.0[c]);
+        let (element, state) = (&self.elements[c], self.mode.0[c]);
         let Reactions { free, reactions, directions, .. } = motion;
-        let normal = || {
-            let row = element.normal.filter(|_| element.kind != Kind::Latch && !self.is_redundant())?;
-            Some(reactions[row])
+        let normal = match element.normal {
+            Some(row) if element.kind != Kind::Latch && !self.pivots.is_redundant() => Some(reactions[row]),
+            _ => None,
         };
-        let slip = || {
-            element
-                .tangential
-                .iter()
-                .fold(R::zero(), |sum, &row| directions[row].times_plus(free.row_rates[row], sum))
-        };
+        let mut slip = R::zero();
+        for &row in element.tangential {
+            slip = directions[row].times_plus(free.row_rates[row], slip);
+        }
         match state {
             ElementState::Open => [Some(free.gaps[c]), None, None, None, None],
             ElementState::Free => [Some(free.gaps[c] * R::lift(sides.latches[c])), None, None, None, None],
             // Its condition is filled in by the caller.
             ElementState::Locked => [None; SLOTS],
-            ElementState::Closed => [None, normal(), None, None, None],
-            ElementState::SlipForward | ElementState::SlipBackward => {
-                [None, normal(), None, None, Some(slip())]
-            }
+            ElementState::Closed => [None, normal, None, None, None],
+            ElementState::SlipForward | ElementState::SlipBackward => [None, normal, None, None, Some(slip)],
             // A slip that has hardly begun is not looked at: its direction is still the one in which it begins.
             ElementState::Slip => {
                 let slow = sides.slow[c];
-                let above = (slow > 0.0).then(|| slip() - R::lift(slow));
-                [None, normal(), None, None, above]
+                let above = if slow > 0.0 { Some(slip - R::lift(slow)) } else { None };
+                [None, normal, None, None, above]
             }
             ElementState::Stick => {
-                let [plus, minus] = if self.is_redundant() { [None; 2] } else { self.margins(c, motion) };
-                [None, normal(), plus, minus, None]
+                let [plus, minus] =
+                    if self.pivots.is_redundant() { [None; 2] } else { self.margins(c, motion) };
+                [None, normal, plus, minus, None]
             }
         }
     }
 
     /// The margins of the cone of an element that sticks: of one component on both sides, of two the difference of squares.
-    pub(super) fn margins<R: Lift<f64>>(&self, c: usize, motion: &Reactions<R, N, W, C>) -> [Option<R>; 2] {
+    pub(super) fn margins<R: Lift<f64>, const N: usize>(
+        &self,
+        c: usize,
+        motion: &Reactions<R, N, W, C>,
+    ) -> [Option<R>; 2] {
         let Reactions { free, reactions, .. } = motion;
-        let load = H::ELEMENTS[c].load.map_or(motion.loads[c], |row| reactions[row]);
+        let load = match self.elements[c].load {
+            Some(row) => reactions[row],
+            None => motion.loads[c],
+        };
         let limit = free.stiction[c].times_plus(load, free.limits[c]);
-        match H::ELEMENTS[c].tangential {
+        match self.elements[c].tangential {
             &[row] => [Some(limit - reactions[row]), Some(limit + reactions[row])],
             rows => {
-                let square = rows.iter().fold(R::zero(), |sum, &row| sum + reactions[row] * reactions[row]);
+                let mut square = R::zero();
+                for &row in rows {
+                    square += reactions[row] * reactions[row];
+                }
                 [Some(limit * limit - square), None]
             }
         }

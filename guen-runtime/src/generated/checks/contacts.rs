@@ -1,7 +1,22 @@
 //! Results of a program with contacts, as the types of `hybrid`.
 
 use crate::Real;
+use crate::hybrid::filled::{filled, table};
 use crate::hybrid::{Conditions, FreeMotion, Loads};
+
+/// The values that are left.
+struct Rest<'a, R> {
+    values: &'a [R],
+}
+
+impl<R: Real> Rest<'_, R> {
+    /// The next value; zero where there is none.
+    fn next(&mut self) -> R {
+        let Some((value, rest)) = self.values.split_first() else { return R::zero() };
+        self.values = rest;
+        *value
+    }
+}
 
 /// The free motion of a system with contacts out of the values of its program: rates, gaps, rows, their rates, the lower
 /// triangle of the Delassus matrix, the rates of the quasi-velocities that unit forces cause, coefficients of friction and of
@@ -16,23 +31,22 @@ use crate::hybrid::{Conditions, FreeMotion, Loads};
 pub fn free_motion<R: Real, const X: usize, const N: usize, const W: usize, const C: usize>(
     values: &[R],
 ) -> FreeMotion<R, N, W, C> {
-    let mut rest = values.iter().copied();
-    let mut next = || rest.next().unwrap_or_else(R::zero);
-    let rates = core::array::from_fn(|_| next());
-    let gaps = core::array::from_fn(|_| next());
-    let row_rates = core::array::from_fn(|_| next());
-    let biases = core::array::from_fn(|_| next());
+    let mut rest = Rest { values };
+    let rates = filled(|_| rest.next());
+    let gaps = filled(|_| rest.next());
+    let row_rates = filled(|_| rest.next());
+    let biases = filled(|_| rest.next());
     let mut delassus = [[R::zero(); W]; W];
-    let triangle = (0..W).flat_map(|row| (0..=row).map(move |column| (row, column)));
-    triangle.for_each(|(row, column)| {
-        let entry = next();
-        (delassus[row][column], delassus[column][row]) = (entry, entry);
-    });
-    let responses =
-        core::array::from_fn(|_| core::array::from_fn(|i| if i < X { R::zero() } else { next() }));
-    let friction = core::array::from_fn(|_| next());
-    let stiction = core::array::from_fn(|_| next());
-    let limits = core::array::from_fn(|_| next());
+    for (w, row) in delassus.iter_mut().enumerate() {
+        for entry in &mut row[..=w] {
+            *entry = rest.next();
+        }
+    }
+    let delassus = table(|i, j| if j <= i { delassus[i][j] } else { delassus[j][i] });
+    let responses = table(|_, i| if i < X { R::zero() } else { rest.next() });
+    let friction = filled(|_| rest.next());
+    let stiction = filled(|_| rest.next());
+    let limits = filled(|_| rest.next());
     FreeMotion { rates, gaps, row_rates, biases, delassus, responses, friction, stiction, limits }
 }
 
@@ -43,8 +57,9 @@ pub fn free_motion<R: Real, const X: usize, const N: usize, const W: usize, cons
 /// assert_eq!((conditions.when, conditions.release), ([1.0], [-1.0]));
 /// ```
 pub fn conditions<R: Real, const C: usize>(values: &[R]) -> Conditions<R, C> {
-    let value = |i: usize| values.get(i).copied().unwrap_or_else(R::zero);
-    Conditions { when: core::array::from_fn(value), release: core::array::from_fn(|i| value(C + i)) }
+    let mut rest = Rest { values };
+    let when = filled(|_| rest.next());
+    Conditions { when, release: filled(|_| rest.next()) }
 }
 
 /// The loads of grips under permanent constraints: of each of these elements the reaction without forces of contacts, then what unit forces
@@ -56,12 +71,11 @@ pub fn conditions<R: Real, const C: usize>(values: &[R]) -> Conditions<R, C> {
 /// ```
 pub fn loads<R: Real, const W: usize, const C: usize>(elements: &[usize], values: &[R]) -> Loads<R, W, C> {
     let mut loads = Loads::none();
-    let mut rest = values.iter().copied();
+    let mut rest = Rest { values };
     for &element in elements {
-        let mut next = || rest.next().unwrap_or_else(R::zero);
         if element < C {
-            loads.free[element] = next();
-            loads.responses[element] = core::array::from_fn(|_| next());
+            loads.free[element] = rest.next();
+            loads.responses[element] = filled(|_| rest.next());
         }
     }
     loads

@@ -1,0 +1,24 @@
+//! Arrays filled by a loop.
+
+/// The array of a function's values, as `core::array::from_fn` makes it. Unoptimised, that one brings two hundred lines of its own with each
+/// closure, where this loop brings forty: all of a system's modes together are a fifth shorter.
+pub(crate) fn filled<T: Copy + Default, const N: usize>(mut value: impl FnMut(usize) -> T) -> [T; N] {
+    let mut array = [T::default(); N];
+    for (k, place) in array.iter_mut().enumerate() {
+        *place = value(k);
+    }
+    array
+}
+
+/// The table of a function's values.
+pub(crate) fn table<T: Copy + Default, const M: usize, const N: usize>(
+    mut value: impl FnMut(usize, usize) -> T,
+) -> [[T; N]; M] {
+    let mut table = [[T::default(); N]; M];
+    for (i, row) in table.iter_mut().enumerate() {
+        for (j, place) in row.iter_mut().enumerate() {
+            *place = value(i, j);
+        }
+    }
+    table
+}
