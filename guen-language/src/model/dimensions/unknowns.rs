@@ -53,9 +53,9 @@ impl Partial {
 #[derive(Default)]
 pub(super) struct Unknowns {
     found: Vec<Option<Partial>>,
-    /// Those that are known from the beginning.
+    /// Dimensions that are known from the beginning.
     elected: BTreeMap<usize, Dimension>,
-    /// What follows of unknown ones from each equation in which one is left, where nothing else is done with equations.
+    /// The dimensions that follow from each equation with one unknown, where nothing else is done with equations.
     votes: Option<BTreeMap<usize, Vec<(Dimension, usize)>>>,
 }
 
