@@ -1,5 +1,7 @@
 //! Arrays filled by a loop.
 
+use crate::numbers::real::Real;
+
 /// The array of a function's values, as `core::array::from_fn` makes it. Unoptimised, that one brings two hundred lines of its own with each
 /// closure, where this loop brings forty: all of a system's modes together are a fifth shorter.
 pub(crate) fn filled<T: Copy + Default, const N: usize>(mut value: impl FnMut(usize) -> T) -> [T; N] {
@@ -21,4 +23,21 @@ pub(crate) fn table<T: Copy + Default, const M: usize, const N: usize>(
         }
     }
     table
+}
+
+/// The diagonal of a matrix.
+pub(super) fn diagonal<R: Real, const W: usize>(matrix: &[[R; W]; W]) -> [R; W] {
+    let mut diagonal = [R::zero(); W];
+    for (w, place) in diagonal.iter_mut().enumerate() {
+        *place = matrix[w][w];
+    }
+    diagonal
+}
+
+/// The other signs.
+pub(super) fn negated<R: Real, const W: usize>(mut values: [R; W]) -> [R; W] {
+    for value in &mut values {
+        *value = -*value;
+    }
+    values
 }

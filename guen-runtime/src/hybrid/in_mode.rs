@@ -1,11 +1,12 @@
 //! A system in one mode: reactions from one small solve over the Delassus matrix, and the smooth system that they make.
 
-use crate::hybrid::filled::filled;
+use crate::hybrid::filled::{diagonal, filled, negated};
 
 use crate::hybrid::element::{Effect, Element, Signal};
 use crate::hybrid::mode::{ElementState, Mode};
-use crate::hybrid::mode_rows::ModeRows;
+use crate::hybrid::mode_rows::{Leaning, ModeRows};
 use crate::hybrid::pivots::Pivots;
+use crate::hybrid::reactions::Reactions;
 use crate::hybrid::system::{FreeMotion, HybridSystem};
 use crate::numbers::dual::Dual;
 use crate::numbers::lift::Lift;
@@ -39,55 +40,6 @@ pub struct InMode<H, const N: usize, const W: usize, const C: usize, const S: us
     eliminated: Option<usize>,
     /// The directions of spatial slip where the slip itself does not tell one.
     pub(super) leaning: [Leaning; C],
-}
-
-/// The direction of spatial slip next to rest.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Leaning {
-    /// A unit vector, or zero where the slip tells its direction.
-    pub(super) direction: [f64; 2],
-    /// A speed far below which the direction is this one; infinite where it is this one always.
-    pub(super) speed: f64,
-}
-
-/// The motion in a mode at one time and state.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reactions<R, const N: usize, const W: usize, const C: usize> {
-    /// The motion without reactions, and what reactions do to it.
-    pub free: FreeMotion<R, N, W, C>,
-    /// The reaction along every row, friction included; zero where a contact is open.
-    pub reactions: [R; W],
-    /// The direction of every slip by its rows: the components of a unit vector, zero where nothing slips.
-    pub directions: [R; W],
-    /// The magnitudes of the reactions of permanent constraints that load grips; zero for other elements.
-    pub loads: [R; C],
-    /// The determinant of the mode's matrix `G`, relative to that of the same rows without friction and without coupling: it vanishes
-    /// where the reactions of slipping contacts become infinite.
-    pub regularity: R,
-}
-
-impl<R: Real, const N: usize, const W: usize, const C: usize> Reactions<R, N, W, C> {
-    /// The rates of the state.
-    pub fn rates(&self) -> [R; N] {
-        let mut rates = self.free.rates;
-        for (reaction, response) in self.reactions.iter().zip(&self.free.responses) {
-            for (rate, entry) in rates.iter_mut().zip(response) {
-                *rate = reaction.times_plus(*entry, *rate);
-            }
-        }
-        rates
-    }
-
-    /// The rates of the rows, `biases + D l`.
-    pub fn row_accelerations(&self) -> [R; W] {
-        let mut sums = self.free.biases;
-        for (sum, entries) in sums.iter_mut().zip(&self.free.delassus) {
-            for (reaction, entry) in self.reactions.iter().zip(entries) {
-                *sum = reaction.times_plus(*entry, *sum);
-            }
-        }
-        sums
-    }
 }
 
 impl<H, const N: usize, const W: usize, const C: usize, const S: usize> InMode<H, N, W, C, S>
@@ -292,23 +244,6 @@ pub(super) fn moved<R: Real, const N: usize, const W: usize>(
         }
     }
     moved
-}
-
-/// The diagonal of a matrix.
-pub(super) fn diagonal<R: Real, const W: usize>(matrix: &[[R; W]; W]) -> [R; W] {
-    let mut diagonal = [R::zero(); W];
-    for (w, place) in diagonal.iter_mut().enumerate() {
-        *place = matrix[w][w];
-    }
-    diagonal
-}
-
-/// The other signs.
-pub(super) fn negated<R: Real, const W: usize>(mut values: [R; W]) -> [R; W] {
-    for value in &mut values {
-        *value = -*value;
-    }
-    values
 }
 
 /// The rows whose reactions are unknowns of a mode: normals of what is closed, slips of what sticks.

@@ -4,13 +4,23 @@
 //! rustc makes of it: in unoptimised builds a closure costs ten times the instructions of a loop.
 
 use crate::hybrid::element::Element;
-use crate::hybrid::in_mode::{Leaning, Reactions, diagonal, negated};
+use crate::hybrid::filled::{diagonal, negated};
 use crate::hybrid::loads::{self, Loads};
 use crate::hybrid::mode::Mode;
 use crate::hybrid::pivots::Pivots;
+use crate::hybrid::reactions::Reactions;
 use crate::hybrid::system::FreeMotion;
 use crate::numbers::lift::Lift;
 use crate::numbers::real::Real;
+
+/// The direction of spatial slip next to rest.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Leaning {
+    /// A unit vector, or zero where the slip tells its direction.
+    pub(super) direction: [f64; 2],
+    /// A speed far below which the direction is this one; infinite where it is this one always.
+    pub(super) speed: f64,
+}
 
 /// The rows of a mode.
 #[derive(Clone, Copy, Debug)]

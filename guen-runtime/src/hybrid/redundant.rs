@@ -1,9 +1,10 @@
 //! Modes whose reactions are not determined: which combinations of inequalities have to hold for some reactions to lie in all cones.
 
 use crate::hybrid::element::Kind;
-use crate::hybrid::in_mode::{InMode, Reactions};
+use crate::hybrid::in_mode::InMode;
 use crate::hybrid::mode::ElementState;
 use crate::hybrid::mode_rows::ModeRows;
+use crate::hybrid::reactions::Reactions;
 use crate::hybrid::system::HybridSystem;
 use crate::numbers::lift::Lift;
 use crate::numbers::real::Real;

@@ -5,8 +5,9 @@ use crate::hybrid::filled::filled;
 
 use crate::hybrid::element::Kind;
 use crate::hybrid::error::HybridCause;
-use crate::hybrid::in_mode::{InMode, Leaning, motion_series};
+use crate::hybrid::in_mode::{InMode, motion_series};
 use crate::hybrid::mode::{ElementState, Mode};
+use crate::hybrid::mode_rows::Leaning;
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::vanishing::{ROUNDING, VANISHING, vanishes, vanishes_within};
 use crate::numbers::power_series::PowerSeries;

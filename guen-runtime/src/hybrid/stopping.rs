@@ -1,7 +1,8 @@
 //! The end of spatial slip: its last part, in which the direction of the slip no longer turns.
 
 use crate::hybrid::filled::filled;
-use crate::hybrid::in_mode::{InMode, Leaning};
+use crate::hybrid::in_mode::InMode;
+use crate::hybrid::mode_rows::Leaning;
 use crate::hybrid::select::unit;
 use crate::hybrid::system::HybridSystem;
 

@@ -3,9 +3,10 @@
 use crate::hybrid::filled::filled;
 
 use crate::hybrid::element::{Effect, Kind};
-use crate::hybrid::in_mode::{InMode, Reactions};
+use crate::hybrid::in_mode::InMode;
 use crate::hybrid::mode::ElementState;
 use crate::hybrid::mode_rows::ModeRows;
+use crate::hybrid::reactions::Reactions;
 use crate::hybrid::system::HybridSystem;
 use crate::numbers::dual::Dual;
 use crate::numbers::lift::Lift;
