@@ -9,7 +9,7 @@ use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 
 use crate::diagnostics::{Fault, file_of, position_of};
 use crate::names::array_of;
-use crate::syntax::{Declaration, Index};
+use crate::syntax::{Declaration, Index, Item};
 
 /// The parts that a declaration lacks because of faults that were reported before.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -61,8 +61,12 @@ pub(crate) struct Damaged {
     arrays: BTreeSet<String>,
     /// The names that may be missing.
     pub(crate) damage: Damage,
-    /// Whether it cannot be told which names may be missing: a count, a component or the name of an instance is.
-    pub(crate) is_beyond_names: bool,
+    /// Whether it cannot be told which instances may be missing, because the name of one is.
+    has_lost_instance: bool,
+    /// Whether a component is damaged: nothing that an instance has may be there.
+    has_lost_component: bool,
+    /// Whether a count is damaged: no entry of an array may be there.
+    has_lost_count: bool,
 }
 
 /// The statements of a declaration in which no fault was found.
@@ -75,7 +79,7 @@ impl Whole {
     /// The statements without the faults so far. The first `unread` of these were found before names had a meaning.
     pub(crate) fn new(declaration: &Declaration, faults: &[Fault], unread: usize) -> Self {
         let damaged_by = |faults: &[Fault]| {
-            (!faults.is_empty()).then(|| Damaged::new(&declaration.tokens, declaration, faults))
+            (!faults.is_empty()).then(|| Damaged::new(&declaration.tokens, &declaration.items, faults))
         };
         let (before, later) = faults.split_at(unread);
         // Nothing is known of what is missing, and what stands around it means what it says.
@@ -107,7 +111,7 @@ const LEAVES: [&str; 8] =
 
 impl Damaged {
     /// The statements that faults have damaged.
-    pub(crate) fn new(tokens: &TokenStream, declaration: &Declaration, faults: &[Fault]) -> Self {
+    pub(crate) fn new(tokens: &TokenStream, items: &[Item], faults: &[Fault]) -> Self {
         let tokens: Vec<TokenTree> = tokens.clone().into_iter().collect();
         let last = match tokens.last() {
             Some(TokenTree::Group(group)) => Some(group.span_close()),
@@ -121,7 +125,9 @@ impl Damaged {
             statements: Vec::new(),
             names: BTreeSet::new(),
             arrays: BTreeSet::new(),
-            is_beyond_names: false,
+            has_lost_instance: false,
+            has_lost_component: false,
+            has_lost_count: false,
             damage: if faults.is_empty() { Damage::None } else { Damage::Leaves },
         };
         for fault in faults {
@@ -134,7 +140,8 @@ impl Damaged {
             }
             damaged.add(&tokens, &place, 0);
         }
-        let declared = declaration.items.iter().flat_map(|item| item.declared());
+        damaged.add_lost(&tokens);
+        let declared = items.iter().flat_map(|item| item.declared());
         for name in declared {
             let text = array_of(&name.text);
             let is_array = text != name.text || !matches!(name.index, Index::None);
@@ -175,13 +182,16 @@ impl Damaged {
         if depth == 1 && !head(statement.tokens).is_some_and(|word| LEAVES.contains(&word.as_str())) {
             self.damage = Damage::Core;
         }
-        if depth == 1 {
-            let is_named = || statement.tokens.iter().any(|token| token.to_string() == "as");
-            self.is_beyond_names |= match head(statement.tokens).as_deref() {
-                Some("count" | "component") => true,
-                Some("use") => !is_named(),
-                _ => false,
-            };
+        // `as` has a name behind it, and so has a path where `as` is missing.
+        let is_named = || {
+            let words = |pair: &[TokenTree]| matches!(pair, [TokenTree::Ident(_), TokenTree::Ident(_)]);
+            statement.tokens.windows(2).skip(1).any(words)
+        };
+        match head(statement.tokens).as_deref() {
+            Some("count") => self.has_lost_count = true,
+            Some("component") if depth == 1 => self.has_lost_component = true,
+            Some("use") => self.has_lost_instance |= !is_named(),
+            _ => {}
         }
         let is_inside = |group: &&Group| match at {
             Place::Position(at) => {
@@ -209,12 +219,50 @@ impl Damaged {
         if depth == 0 {
             self.damage = Damage::Core;
         }
-        if let Some(first) = statement.tokens.first() {
-            self.statements.push((start(first), statement.end));
-            if matches!(at, Place::Token(_)) {
-                each(statement.tokens, &mut |token| self.tokens.insert(format!("{:?}", token.span())));
+        // The head of a system or a component says nothing of what stands in the braces.
+        let has_sections = depth == 0 || head(statement.tokens).as_deref() == Some("component");
+        let (tokens, end) = match statement.tokens.split_last() {
+            Some((TokenTree::Group(body), head)) if has_sections && body.delimiter() == Delimiter::Brace => {
+                (head, position_of(body.span_open()))
             }
-            words(statement.tokens, &mut self.names);
+            _ => (statement.tokens, statement.end),
+        };
+        if let Some(first) = tokens.first() {
+            self.statements.push((start(first), end));
+            if matches!(at, Place::Token(_)) {
+                each(tokens, &mut |token| self.tokens.insert(format!("{:?}", token.span())));
+            }
+            words(tokens, &mut self.names);
+        }
+    }
+
+    /// Adds the arrays and instances that may be missing although no damaged statement names them.
+    fn add_lost(&mut self, tokens: &[TokenTree]) {
+        if !self.has_lost_component && !self.has_lost_count && !self.has_lost_instance {
+            return;
+        }
+        let is_dot = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Punct(mark)) if mark.as_char() == '.');
+        for (place, token) in tokens.iter().enumerate() {
+            match (token, tokens.get(place + 1)) {
+                (TokenTree::Ident(word), Some(TokenTree::Ident(name)))
+                    if word == "as" && self.has_lost_component =>
+                {
+                    self.arrays.insert(name.to_string());
+                }
+                (TokenTree::Ident(name), Some(TokenTree::Group(group)))
+                    if group.delimiter() == Delimiter::Bracket && self.has_lost_count =>
+                {
+                    self.arrays.insert(name.to_string());
+                }
+                // Whatever has members may be the instance.
+                (TokenTree::Ident(name), next) if is_dot(next) && self.has_lost_instance => {
+                    self.arrays.insert(name.to_string());
+                }
+                (TokenTree::Group(group), _) => {
+                    self.add_lost(&group.stream().into_iter().collect::<Vec<TokenTree>>());
+                }
+                _ => {}
+            }
         }
     }
 
@@ -224,11 +272,13 @@ impl Damaged {
         let message = fault.message();
         let is_at_name = || fault.span().source_text().is_some_and(|text| self.names.contains(&text));
         let is_missing = || ["unknown ", "used before", "out of range"].iter().any(|w| message.contains(w));
-        let roots = || {
-            let quoted = message.split('`').skip(1).step_by(2);
-            quoted.filter_map(|text| text.split(['[', '.']).next())
+        // The first name of such a message is what is missing, the others are of the place.
+        let missing = message.split('`').nth(1).unwrap_or_default();
+        let root = missing.split(['[', '.']).next().unwrap_or_default();
+        let has_lost = || {
+            let is_member = self.has_lost_instance && missing.contains('.');
+            is_member || self.names.contains(root) || self.arrays.contains(root)
         };
-        let has_lost = || roots().any(|root| self.names.contains(root) || self.arrays.contains(root));
         self.statements.iter().any(|(from, to)| *from <= at && at < *to)
             || is_at_name()
             || is_missing() && has_lost()

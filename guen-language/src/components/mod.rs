@@ -11,6 +11,7 @@ mod gather;
 
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 
+use crate::damage::Damaged;
 use crate::diagnostics::{Fault, FaultReport, Faults, collect};
 use crate::emit;
 use crate::model;
@@ -53,20 +54,22 @@ fn finish(
     let paths = imports(&component.items);
     let paths: Vec<_> = paths.into_iter().filter(|path| path.text != component.name.text).collect();
     component.imported = imported(&paths, &bundles);
+    let damaged = Damaged::new(&tokens, &component.items, report.faults());
     let (constants, further) = collect(|faults| {
         faults.absorb(report);
+        let before = faults.count();
         uses_itself(&component, faults);
         unfold::check_names(&component, faults);
-        let is_sound = faults.count() == 0;
-        // After a fault the struct is there all the same, as far as its constants are sound.
-        let constants = match is_sound {
-            true => unfold::constants(&component, faults),
-            false => collect(|ignored| unfold::constants(&component, ignored)).0,
-        };
-        if is_sound {
-            // Defaults and bounds mean something without a system.
-            let _ = model::resolve(&constants, faults);
-        }
+        faults.keep_since(before, |fault| !damaged.explains(fault));
+        // What is wrong in names is told again where loops are written out, and where constants have values.
+        let before = faults.count();
+        let constants = unfold::constants(&component, faults);
+        let constants = Declaration { tokens: tokens.clone(), ..constants };
+        faults.keep_since(before, |fault| !damaged.explains(fault));
+        // Defaults and bounds mean something without a system.
+        let before = faults.count();
+        let _ = model::resolved(&constants, damaged.damage, faults);
+        faults.keep_since(before, |fault| !damaged.explains(fault));
         constants
     });
     let mut items = further.to_compile_errors();

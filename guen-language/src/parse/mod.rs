@@ -60,7 +60,7 @@ pub(crate) fn unfolded(
     declaration: Declaration,
     report: FaultReport,
 ) -> (Declaration, FaultReport) {
-    let damaged = Damaged::new(tokens, &declaration, report.faults());
+    let damaged = Damaged::new(tokens, &declaration.items, report.faults());
     // What the parser left out may have declared any name.
     let unknown = if report.is_empty() { unknown_names(&declaration) } else { Vec::new() };
     collect(|faults| {

@@ -5,6 +5,7 @@ mod angles;
 mod carried;
 mod common;
 mod components;
+mod components_alone;
 mod corpus;
 mod dimensions;
 mod families;

@@ -55,7 +55,11 @@ pub(super) fn items(instance: &Use, component: &Component, path: &Path, faults: 
             missing.iter().map(|argument| format!("{}: ..", argument.name)).collect::<Vec<_>>().join(", ")
         )));
     }
-    let values = component.arguments.iter().filter(|argument| argument.kind != ArgumentKind::Count);
+    // Nothing is known of a value whose kind is not.
+    let values = component
+        .arguments
+        .iter()
+        .filter(|argument| argument.is_sound && argument.kind != ArgumentKind::Count);
     let pairs = values.filter_map(|argument| {
         Some((argument, instance.arguments.iter().find(|given| given.name.text == argument.name.text)?))
     });

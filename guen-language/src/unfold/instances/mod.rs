@@ -59,7 +59,7 @@ const STAND_IN: i64 = 2;
 #[derive(Clone)]
 struct Known<'a> {
     /// Components that are declared in the braces of the system, each with its items written out.
-    declared: Vec<(Name, Option<Rc<Part>>)>,
+    declared: Vec<(Name, Rc<Part>)>,
     /// The names of all of them, also of those that come later.
     announced: Vec<Name>,
     imported: &'a [Imported],
@@ -146,11 +146,10 @@ impl Stage<'_> {
             scope.read(&mut item, self.faults);
             match item {
                 Item::Component(component) => {
-                    let before = self.faults.count();
                     check_names(&component, self.faults);
-                    let sound = self.faults.count() == before;
-                    let written = sound.then(|| self.by_itself(&component, &known));
-                    found.components.extend(written.clone());
+                    // What is wrong in it hides nothing of its uses.
+                    let written = self.by_itself(&component, &known);
+                    found.components.push(Rc::clone(&written));
                     known.declared.push((component.name.clone(), written));
                 }
                 Item::Use(instance) => {
@@ -190,7 +189,7 @@ impl Stage<'_> {
         }
         let declared = known.declared.iter().position(|(name, _)| path.is_name() && name.text == path.text);
         if let Some(place) = declared {
-            let part = known.declared[place].1.clone()?;
+            let part = Rc::clone(&known.declared[place].1);
             if part.component.counts().next().is_none() {
                 return Some(part);
             }

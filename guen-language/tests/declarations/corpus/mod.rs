@@ -7,7 +7,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use guen_language::diagnostics::{FaultReport, collect};
 use guen_language::names::is_generated_item;
 use guen_language::syntax::Declaration;
-use guen_language::{derive, emit, expand_outline, model, parse};
+use guen_language::{derive, emit, expand_outline, model, parse, with_further_faults};
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 
 /// Sound declarations, small, with every section between them.
@@ -257,11 +257,13 @@ fn outline(declaration: &Declaration) {
 
 /// What the whole pipeline makes of a stream: the reports, and the work where it came to its end.
 pub fn pipeline(stream: TokenStream) -> (Vec<FaultReport>, u64) {
-    let (declaration, report) = parse::parse(stream);
+    let (declaration, report) = parse::parse(stream.clone());
     let mut reports = vec![report];
     let mut work = 0;
     let Some(declaration) = declaration else { return (reports, work) };
     if !reports[0].is_empty() {
+        reports =
+            reports.into_iter().map(|report| with_further_faults(&stream, &declaration, report)).collect();
         outline(&declaration);
         return (reports, work);
     }
