@@ -16,7 +16,7 @@ const SOUND: &str = "pub component Leg(hip: vector, side: scalar, n: count) {
     outputs { tip = foot[n - 1]; }
 }";
 
-/// What is right, what is wrong, and how the message begins.
+/// The right text, the wrong one, and how the message begins.
 const FAULTS: [(&str, &str, &str); 14] = [
     ("side: scalar,", "side: scalr,", "expected a kind of argument"),
     ("m: kg > 0", "m: kgg > 0", "unknown unit `kgg`"),
