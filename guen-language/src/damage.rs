@@ -185,7 +185,9 @@ impl Damaged {
         // `as` has a name behind it, and so has a path where `as` is missing.
         let is_named = || {
             let words = |pair: &[TokenTree]| matches!(pair, [TokenTree::Ident(_), TokenTree::Ident(_)]);
-            statement.tokens.windows(2).skip(1).any(words)
+            let behind = statement.tokens.iter().skip_while(|token| !matches!(token, TokenTree::Ident(_)));
+            let behind: Vec<TokenTree> = behind.skip(1).cloned().collect();
+            behind.windows(2).any(words)
         };
         match head(statement.tokens).as_deref() {
             Some("count") => self.has_lost_count = true,

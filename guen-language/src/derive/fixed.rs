@@ -5,7 +5,7 @@ use guen_symbolic::{Derivation, DerivationError, ExprId, Mechanics, Node, Substi
 use super::faults::short;
 use super::selection::{Held, StateIndex, StatePart};
 use crate::diagnostics::{Fault, Faults};
-use crate::model::{FixedConstant, Model, SceneEntry};
+use crate::model::{Contacts, FixedConstant, Model, SceneEntry};
 use crate::syntax::Name;
 
 /// Why fixed values cannot be.
@@ -135,6 +135,42 @@ fn trouble(bench: &mut Workbench, whole: &Derivation, fixed: &[(ExprId, ExprId)]
         }
     }
     None
+}
+
+/// The fault of a fixed constant at whose value a contact, a switch or a reset divides by zero.
+pub(super) fn undefined_contacts(
+    bench: &mut Workbench,
+    contacts: &Contacts<'_>,
+    fixes: &[FixedConstant<'_>],
+) -> Option<Fault> {
+    let entries = contacts.entries.iter().map(|entry| {
+        let values = [entry.gap, entry.friction, entry.stiction, entry.limit, entry.when, entry.release];
+        let rows = entry.rows.iter().map(|row| row.form);
+        let values = values.into_iter().flatten().chain([entry.restitution]).chain(rows);
+        (entry.name, values.collect::<Vec<ExprId>>())
+    });
+    let switches = contacts.switches.iter().map(|switch| (switch.name, vec![switch.function]));
+    let resets = contacts.resets.iter().map(|reset| {
+        let given = reset.assignments.iter().map(|(_, value)| *value);
+        (reset.name, given.chain([reset.function]).collect())
+    });
+    let parts: Vec<(&Name, Vec<ExprId>)> = entries.chain(switches).chain(resets).collect();
+    let mut undefined = |fixed: &[&FixedConstant<'_>]| {
+        let mut values = Substitution::new(fixed.iter().map(|fix| (fix.symbol, fix.value)));
+        let found = parts.iter().find(|(_, values_of_part)| {
+            values_of_part.iter().any(|e| {
+                let e = values.of(&mut bench.graph, *e);
+                is_undefined(bench, e)
+            })
+        });
+        found.map(|(name, _)| *name)
+    };
+    let all: Vec<&FixedConstant<'_>> = fixes.iter().collect();
+    let together = undefined(&all)?;
+    let alone = fixes.iter().find_map(|fix| Some((fix, undefined(&[fix])?)));
+    let (fix, part) = alone.or_else(|| Some((fixes.last()?, together)))?;
+    let text = format!("fixing `{}` at this value makes `{part}` divide by zero", fix.name);
+    Some(Fault::new(fix.name.span(), text).note("the scene could not go from one mode to another"))
 }
 
 /// Whether something is divided by the number zero anywhere inside.

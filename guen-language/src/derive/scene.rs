@@ -104,6 +104,12 @@ pub(super) fn derive(
             entry.modes = SceneModes::Several(vec![mode]);
         }
         let (own, scene) = (own(model), &*entry);
+        if let (Some(_), Some(contacts)) = (&own, &contacts)
+            && let Some(fault) = fixed::undefined_contacts(&mut model.bench, contacts, &scene.fixes)
+        {
+            faults.report(fault);
+            continue;
+        }
         levels.extend(level(model, system, (derivation, brackets), own, (index, scene), faults));
     }
     model.scenes = scenes;
