@@ -38,7 +38,7 @@ impl Place {
     fn is_among(&self, tokens: &[TokenTree]) -> bool {
         let Place::Token(text) = self else { return true };
         let mut is_there = false;
-        each(tokens, &mut |token| is_there |= format!("{:?}", token.span()) == *text);
+        each(tokens, &mut |token| is_there |= places(token).contains(text));
         is_there
     }
 }
@@ -113,6 +113,7 @@ impl Damaged {
     /// The statements that faults have damaged.
     pub(crate) fn new(tokens: &TokenStream, items: &[Item], faults: &[Fault]) -> Self {
         let tokens: Vec<TokenTree> = tokens.clone().into_iter().collect();
+        let tokens = without_crate_path(&tokens);
         let last = match tokens.last() {
             Some(TokenTree::Group(group)) => Some(group.span_close()),
             last => last.map(TokenTree::span),
@@ -135,12 +136,12 @@ impl Damaged {
                 true => Place::Position(position_of(fault.span())),
                 false => Place::Token(format!("{:?}", fault.span())),
             };
-            if !place.is_among(&tokens) {
+            if !place.is_among(tokens) {
                 damaged.is_damaged_elsewhere = true;
             }
-            damaged.add(&tokens, &place, 0);
+            damaged.add(tokens, &place, 0);
         }
-        damaged.add_lost(&tokens);
+        damaged.add_lost(tokens);
         let declared = items.iter().flat_map(|item| item.declared());
         for name in declared {
             let text = array_of(&name.text);
@@ -232,7 +233,7 @@ impl Damaged {
         if let Some(first) = tokens.first() {
             self.statements.push((start(first), end));
             if matches!(at, Place::Token(_)) {
-                each(tokens, &mut |token| self.tokens.insert(format!("{:?}", token.span())));
+                each(tokens, &mut |token| self.tokens.extend(places(token)));
             }
             words(tokens, &mut self.names);
         }
@@ -303,6 +304,27 @@ fn statements(tokens: &[TokenTree], end: Position) -> Vec<Statement<'_>> {
         statement.end = next;
     }
     found
+}
+
+/// The tokens behind `crate = path;`, which stands in another file where guen's own macro has written it.
+fn without_crate_path(tokens: &[TokenTree]) -> &[TokenTree] {
+    let is = |token: &TokenTree, mark: char| matches!(token, TokenTree::Punct(p) if p.as_char() == mark);
+    match tokens {
+        [TokenTree::Ident(word), equals, ..] if word == "crate" && is(equals, '=') => {
+            let path = tokens.iter().take_while(|token| !is(token, ';')).count();
+            tokens.get(path + 1..).unwrap_or(&[])
+        }
+        _ => tokens,
+    }
+}
+
+/// The places of a token as they are written out for debugging: of a group also those of its delimiters, at which faults are told.
+fn places(token: &TokenTree) -> Vec<String> {
+    let spans = match token {
+        TokenTree::Group(group) => vec![group.span(), group.span_open(), group.span_close()],
+        other => vec![other.span()],
+    };
+    spans.iter().map(|span| format!("{span:?}")).collect()
 }
 
 fn start(token: &TokenTree) -> Position {

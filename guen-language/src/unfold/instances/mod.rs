@@ -18,8 +18,8 @@ use crate::diagnostics::{Fault, Faults, collect};
 use crate::limits::MAX_INSTANCES;
 use crate::names::{nearest, quoted};
 use crate::syntax::{Component, Declaration, Imported, Instance, Item, Name, Use};
-use crate::unfold::check_names;
 use crate::unfold::component_names::OwnNames;
+use crate::unfold::{check_names, component_counts};
 use members::Scope;
 
 /// Returns the declaration without components and uses.
@@ -111,6 +111,10 @@ impl Stage<'_> {
     /// Writes a component out for the counts that a use gives; none where there is none, or after a fault in it.
     fn counted(&mut self, instance: &Use, component: &Component, outer: &Known<'_>) -> Option<Rc<Part>> {
         let counts = arguments::counts(instance, component, self.faults)?;
+        if !collect(|faults| component_counts::check(component, faults)).1.is_empty() {
+            // Its one struct of constants cannot fit every use: that is told where it is declared.
+            return None;
+        }
         let before = self.faults.count();
         let part = self.component(component, outer.imported, outer, &counts);
         if self.faults.count() == before {
