@@ -50,6 +50,14 @@ pub(super) fn derive(
         if scene.single_mode().is_some() && !may_reset {
             continue;
         }
+        let undefined = |model: &mut Model<'_>| {
+            fixed::undefined_contacts(&mut model.bench, contacts.as_ref()?, &scene.fixes)
+        };
+        // In a single mode it is not known yet whether the scene has resets, and what it needs of its contacts.
+        if let Some(fault) = undefined(model).filter(|_| scene.single_mode().is_none()) {
+            faults.report(fault);
+            continue;
+        }
         let values: Vec<(ExprId, ExprId)> = scene.fixes.iter().map(|fix| (fix.symbol, fix.value)).collect();
         let known = derived.iter().find(|(known, _)| *known == values).map(|(_, shared)| shared.clone());
         let shared = known.or_else(|| {
@@ -72,7 +80,7 @@ pub(super) fn derive(
             Some(shared)
         });
         let Some(Shared { derivation, brackets, contacts: of_contacts }) = shared else {
-            // In its mode, too, the values of its constants would be reported.
+            // The fault of the fixed values would be reported again in its mode.
             entry.modes = SceneModes::Without;
             continue;
         };
@@ -100,16 +108,15 @@ pub(super) fn derive(
                 }
                 continue;
             }
+            if let Some(fault) = undefined(model) {
+                faults.report(fault);
+                entry.modes = SceneModes::Without;
+                continue;
+            }
             let mode = mode.clone();
             entry.modes = SceneModes::Several(vec![mode]);
         }
         let (own, scene) = (own(model), &*entry);
-        if let (Some(_), Some(contacts)) = (&own, &contacts)
-            && let Some(fault) = fixed::undefined_contacts(&mut model.bench, contacts, &scene.fixes)
-        {
-            faults.report(fault);
-            continue;
-        }
         levels.extend(level(model, system, (derivation, brackets), own, (index, scene), faults));
     }
     model.scenes = scenes;
@@ -325,7 +332,7 @@ fn has_resets(
 ) -> bool {
     let (n, size) = model.sizes();
     let held: Vec<StateIndex> = scene.held.iter().flat_map(|name| model.places(&name.text)).collect();
-    // A constant does not jump, and is refused where this is known.
+    // A reset that changes a fixed variable is refused later, once it is known that the scene has it.
     if held.iter().any(|place| contacts.changer(*place).is_some()) {
         return true;
     }

@@ -38,6 +38,7 @@ mod states;
 mod structure;
 mod supplied;
 mod token_damage;
+mod undefined_in_scenes;
 mod unsigned;
 mod vehicles;
 mod wheels;

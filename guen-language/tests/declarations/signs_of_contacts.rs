@@ -1,10 +1,7 @@
 //! Conditions and coefficients of contacts that are refused because of their sign: against values drawn at random, and examples that are
 //! accepted.
 
-use guen_language::diagnostics::collect;
-use guen_language::{derive, model, parse};
-
-use crate::common::rounds;
+use crate::common::{fault_messages, rounds};
 
 /// The messages for a ball with a contact that says something more.
 fn messages(clauses: &str) -> Vec<String> {
@@ -19,12 +16,7 @@ fn messages(clauses: &str) -> Vec<String> {
             contacts {{ floor: gap = z, {clauses}; }}
         }}"
     );
-    let (declaration, report) = parse::parse(text.parse().expect("tokens"));
-    assert!(report.is_empty(), "{text}\n{report}");
-    let declaration = declaration.expect("a declaration");
-    let (_, report) =
-        collect(|faults| derive::derive(model::resolve(&declaration, faults)?, faults).map(|_| ()));
-    report.faults().iter().map(|fault| fault.message().to_owned()).collect()
+    fault_messages(&text)
 }
 
 /// An expression with its values at some points.

@@ -53,6 +53,15 @@ pub fn derived_without<T>(
     look(&derived.expect("a derivation"))
 }
 
+/// The messages about a declaration whose grammar is right.
+pub fn fault_messages(text: &str) -> Vec<String> {
+    let (declaration, report) = parse::parse(text.parse().expect("tokens"));
+    assert!(report.is_empty(), "{text}\n{report}");
+    let declaration = declaration.expect("a declaration");
+    let (_, report) = collect(|faults| derive(model::resolve(&declaration, faults)?, faults).map(|_| ()));
+    report.faults().iter().map(|fault| fault.message().to_owned()).collect()
+}
+
 /// What a program of a level computes where its symbols have these values; `None` if there is none of that name.
 #[allow(dead_code, reason = "some tests look at costs only")]
 pub fn evaluated(level: &Level, name: &str, value: impl Fn(SymbolId) -> f64) -> Option<Vec<f64>> {
