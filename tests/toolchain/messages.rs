@@ -81,10 +81,10 @@ fn the_compiler_shows_the_same_in_all_cases() {
     assert!(wrong.is_empty(), "{} cases differ\n\n{}", wrong.len(), wrong.join("\n\n"));
 }
 
-/// What the compiler's lints and its checks of types say of sound declarations: messages, places and labels. Places
-/// outside of the program are left out, as they change with the library.
+/// Messages that need the compiler: its lints, its checks of types, and faults behind macros of the program. Messages, places and labels are
+/// compared. Places outside of the program are left out, as they change with the library.
 #[test]
-fn the_compiler_says_of_sound_declarations() {
+fn the_compiler_says_what_it_alone_can_say() {
     let mut wrong = Vec::new();
     let programs = programs("tests/lints");
     assert!(programs.len() >= 2);
