@@ -29,7 +29,7 @@ type Position = (usize, usize);
 enum Place {
     /// Between the first token of the declaration and the last.
     Position(Position),
-    /// The place of a token that another macro was given, as it is written out for debugging: places cannot be compared.
+    /// At a token from the arguments of another macro: the debug text of its span, because spans cannot be compared.
     Token(String),
 }
 
@@ -61,31 +61,31 @@ pub(crate) struct Damaged {
     arrays: BTreeSet<String>,
     /// The names that may be missing.
     pub(crate) damage: Damage,
-    /// Whether it cannot be told which instances may be missing, because the name of one is.
+    /// Whether an instance has lost its name, so that anything with members may be this instance.
     has_lost_instance: bool,
-    /// Whether a component is damaged: nothing that an instance has may be there.
+    /// Whether a component is damaged, so that members of its instances may be missing.
     has_lost_component: bool,
-    /// Whether a count is damaged: no entry of an array may be there.
+    /// Whether a count is damaged, so that entries of arrays may be missing.
     has_lost_count: bool,
 }
 
 /// The statements of a declaration in which no fault was found.
-pub(crate) struct Whole {
+pub(crate) struct Sound {
     damaged: Option<Damaged>,
     unread: Option<Damaged>,
 }
 
-impl Whole {
+impl Sound {
     /// The statements without the faults so far. The first `unread` of these were found before names had a meaning.
     pub(crate) fn new(declaration: &Declaration, faults: &[Fault], unread: usize) -> Self {
         let damaged_by = |faults: &[Fault]| {
             (!faults.is_empty()).then(|| Damaged::new(&declaration.tokens, &declaration.items, faults))
         };
         let (before, later) = faults.split_at(unread);
-        // Nothing is known of what is missing, and what stands around it means what it says.
+        // An unknown name says nothing against the rest of its statement.
         let later = later.iter().filter(|fault| !fault.is_missing_name());
         let all: Vec<Fault> = before.iter().chain(later).cloned().collect();
-        Whole { damaged: damaged_by(&all), unread: damaged_by(before) }
+        Sound { damaged: damaged_by(&all), unread: damaged_by(before) }
     }
 
     /// Whether there is no fault in the statement of a place.
@@ -93,7 +93,7 @@ impl Whole {
         !self.damaged.as_ref().is_some_and(|damaged| damaged.holds(place))
     }
 
-    /// Whether the statement of a place could be read, be it without a meaning.
+    /// Whether the statement of a place was read, though its names may have no meaning.
     pub(crate) fn is_read(&self, place: Span) -> bool {
         !self.unread.as_ref().is_some_and(|unread| unread.holds(place))
     }
@@ -183,7 +183,7 @@ impl Damaged {
         if depth == 1 && !head(statement.tokens).is_some_and(|word| LEAVES.contains(&word.as_str())) {
             self.damage = Damage::Core;
         }
-        // `as` has a name behind it, and so has a path where `as` is missing.
+        // Two words in a row: a name behind `as`, or behind a path without `as`.
         let is_named = || {
             let words = |pair: &[TokenTree]| matches!(pair, [TokenTree::Ident(_), TokenTree::Ident(_)]);
             let behind = statement.tokens.iter().skip_while(|token| !matches!(token, TokenTree::Ident(_)));
@@ -275,7 +275,7 @@ impl Damaged {
         let message = fault.message();
         let is_at_name = || fault.span().source_text().is_some_and(|text| self.names.contains(&text));
         let is_missing = || ["unknown ", "used before", "out of range"].iter().any(|w| message.contains(w));
-        // The first name of such a message is what is missing, the others are of the place.
+        // The first quoted name of such a message is missing; further ones tell the place.
         let missing = message.split('`').nth(1).unwrap_or_default();
         let root = missing.split(['[', '.']).next().unwrap_or_default();
         let has_lost = || {
@@ -318,7 +318,7 @@ fn without_crate_path(tokens: &[TokenTree]) -> &[TokenTree] {
     }
 }
 
-/// The places of a token as they are written out for debugging: of a group also those of its delimiters, at which faults are told.
+/// The debug texts of the spans of a token. For a group also those of its delimiters, at which some faults are reported.
 fn places(token: &TokenTree) -> Vec<String> {
     let spans = match token {
         TokenTree::Group(group) => vec![group.span(), group.span_open(), group.span_close()],

@@ -200,7 +200,7 @@ fn resets_keep_constraints_and_closed_contacts() {
 
 mechanical_component! {
     /// A wheel that counts its turns and keeps its angle small.
-    component Counter(turned: scalar) {
+    pub(crate) component Counter(turned: scalar) {
         constants { whole > 0 = 1 }
         coordinates { angle }
         parameters { spin = dot(angle); }

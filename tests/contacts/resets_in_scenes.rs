@@ -3,7 +3,9 @@
 use guen::hybrid::{HybridCause, HybridSystem, HybridTrajectory, TransitionKind};
 use guen::prelude::*;
 
-/// A number in the middle of things, the same on every machine.
+use crate::resets::Counter;
+
+/// A number between 0 and 1, the same on every machine.
 fn drawn(seed: &mut u64) -> f64 {
     *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     (*seed >> 11) as f64 / (1_u64 << 53) as f64
@@ -109,7 +111,7 @@ mechanical_system! {
 }
 
 mechanical_system! {
-    /// The same without resets.
+    /// `Apart` without resets.
     pub system Smooth {
         constants { m > 0 = 2, k > 0 = 3 }
         coordinates { x, y }
@@ -122,7 +124,7 @@ mechanical_system! {
 }
 
 mechanical_system! {
-    /// The same with a reset of the other slider.
+    /// `Apart` with a reset that changes the other slider alone.
     pub system Beside {
         constants { m > 0 = 2, k > 0 = 3 }
         coordinates { x, y }
@@ -187,7 +189,7 @@ fn resets_have_the_constants_that_a_scene_fixes() {
     assert!((found.end().w - expected.end().w).abs() < 1e-10);
 }
 
-/// What no reset of a system touches is a smooth scene, to the operation.
+/// A scene that has none of the resets is a smooth system, with the same operations as without them.
 #[test]
 fn a_scene_without_its_resets_is_smooth() {
     assert_eq!(beside::left::COST, smooth::left::COST);
@@ -365,19 +367,6 @@ fn a_reset_that_opens_a_closed_gap_ends_the_scene() {
             resets_of(&standing.simulate(&start.into(), 0.0..3.0).unwrap(), &["jump", "raise"]).len(),
             2
         );
-    }
-}
-
-mechanical_component! {
-    /// A wheel that counts its turns and keeps its angle small.
-    component Counter(turned: scalar) {
-        constants { whole > 0 = 1 }
-        coordinates { angle }
-        parameters { spin = dot(angle); }
-        states { dot(turns) = 0; }
-        kinetic_energy = 1/2*spin^2;
-        forces { turned along spin; }
-        resets { around: angle - whole rises, angle = angle - whole, turns = turns + 1; }
     }
 }
 

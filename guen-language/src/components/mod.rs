@@ -61,7 +61,7 @@ fn finish(
         uses_itself(&component, faults);
         unfold::check_names(&component, faults);
         faults.keep_since(before, |fault| !damaged.explains(fault));
-        // What is wrong in names is told again where loops are written out, and where constants have values.
+        // Faults of names are found again when loops are written out and when constants get values; each is kept once.
         let before = faults.count();
         let constants = unfold::constants(&component, faults);
         let constants = Declaration { tokens: tokens.clone(), ..constants };

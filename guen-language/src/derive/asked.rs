@@ -83,11 +83,12 @@ pub(super) fn provided(
     selection
 }
 
-/// A constraint without a row: it says nothing, or is a contact that does not touch, or one of a scene in one mode that has resets.
+/// The fault of a reaction of something without a row: a constraint that says 0 = 0, a contact that does not touch, or any contact in a scene
+/// with resets.
 fn no_rows(model: &Model<'_>, contacts: Option<&SceneContacts<'_, '_>>, name: &Name) -> Fault {
     if contacts.is_some_and(|contacts| contacts.has(name)) {
         return Fault::new(name.span(), format!("`{name}` is not a constraint"))
-            .note("with resets a scene runs through its mode, and its contacts are none")
+            .note("the scene has resets, so it is no smooth system in which contacts are constraints")
             .help(format!("declare an output, `force = reaction({name});`, and provide that"));
     }
     match &model.declaration.in_mode {

@@ -92,7 +92,7 @@ impl StateEquations<'_> {
     }
 
     /// The variables that leave and are pure quadratures, in layers: the rates of each layer depend on what is kept
-    /// and on the layers before. What jumps is none: what forces of contacts move or a reset changes.
+    /// and on the layers before. A variable that jumps, by a force of a contact or by a reset, is no quadrature.
     pub fn quadratures(
         &self,
         bench: &mut Workbench,

@@ -17,7 +17,7 @@ pub(super) struct Kept {
     pub(super) replacements: Vec<Replacement>,
 }
 
-/// The least closed set of variables with those that are tracked and those that something wanted depends on. Coordinates that are tracked or
+/// The smallest set of variables that holds the tracked ones and all that the wanted expressions depend on. Coordinates that are tracked or
 /// pinned are not replaced.
 fn kept(
     bench: &mut Workbench,
@@ -53,8 +53,8 @@ fn kept(
     Kept { reasons, replacements }
 }
 
-/// The least closed set of variables with those that are tracked and those that something asked for depends on, with the switches and resets
-/// that it takes; and all that it was asked for.
+/// The smallest set of variables that holds the tracked ones and all that the scene needs, with its switches and resets. Returns the needed
+/// expressions beside it.
 pub(super) fn closed(
     bench: &mut Workbench,
     dependence: &mut Dependence,

@@ -148,7 +148,7 @@ fn scenes_in_modes_have_the_resets_of_what_they_keep_and_of_what_rests() {
     );
 }
 
-/// Coordinates that an equation relates stay, where a reset may break it; a variable that jumps is no integral of what is kept.
+/// An equation that a reset may break eliminates no coordinate, and a variable that jumps is not recovered as an integral.
 #[test]
 fn resets_keep_the_equations_that_they_may_break() {
     let system = |resets: &str| {

@@ -1,7 +1,7 @@
 //! The rows of a mode without its system: the directions of slip, the equations of the reactions, and what friction adds to them.
 //!
-//! Nothing here depends on the type of a system, and no closure is handed to an iterator, so that systems with as many rows share what
-//! rustc makes of it: in unoptimised builds a closure costs ten times the instructions of a loop.
+//! Nothing here depends on the type of a system, so systems with the same number of rows share the compiled code. Loops stand in place of iterators
+//! with closures, because closures make unoptimised code several times as long (`docs/design/build-time.md`).
 
 use crate::hybrid::element::Element;
 use crate::hybrid::filled::{diagonal, negated};

@@ -1,4 +1,4 @@
-//! A scene with resets runs through its mode, and there contacts are no constraints.
+//! In a scene with resets contacts are no constraints.
 //!
 //! repair: `provide reactions(floor);` => `provide force;`
 

@@ -1,4 +1,4 @@
-//! What a reset changes is no constant of a scene.
+//! A scene cannot fix a variable that a reset changes.
 //!
 //! repair: `fix strength;` => ``
 

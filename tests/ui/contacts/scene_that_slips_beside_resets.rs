@@ -1,4 +1,4 @@
-//! A scene in one mode without the resets of its system has no contact that slips.
+//! A scene in one mode in which a contact slips needs a reset.
 //!
 //! repair: `floor: slip-;` => `floor: slip;`
 

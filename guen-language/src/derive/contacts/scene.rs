@@ -3,8 +3,8 @@
 //! A row that no mode of the scene lets move is zero there. Where the scene lacks a variable of such a row, the row and its gap are
 //! numbers.
 //!
-//! A scene has the resets that change a variable which it keeps. A reset that moves a row which is zero there belongs to it, too: behind it
-//! that row has to be looked at.
+//! A scene has every reset that changes a variable of the scene. It also has every reset that may move a gap or a row which is zero in all its
+//! modes: behind such a reset the run checks whether it still is.
 
 use std::rc::Rc;
 
@@ -205,7 +205,7 @@ impl<'c, 'a> SceneContacts<'c, 'a> {
         resting.filter(|(_, rests)| **rests).map(|(e, _)| *e).collect()
     }
 
-    /// The coordinates that must not be replaced by what these equations say of them: a reset may break the equations in which they are.
+    /// The coordinates that must not be eliminated by these equations, because a reset may break the equations in which they stand.
     pub(in crate::derive) fn reset_coordinates(
         &self,
         bench: &mut Workbench,
@@ -226,8 +226,7 @@ impl<'c, 'a> SceneContacts<'c, 'a> {
         found
     }
 
-    /// Takes the resets that change what is kept, and those that change a gap or row which is zero in the scene; whether there are new
-    /// ones among them.
+    /// Takes the resets that change a kept variable, or a gap or row that is zero in the scene. Returns whether a new one was taken.
     ///
     /// A reset needs its function, its new values, and the gaps, rows and equations on positions that it may break.
     pub(in crate::derive) fn take_resets(

@@ -7,7 +7,7 @@ use guen_symbolic::Rational;
 use proc_macro2::Span;
 
 use super::unknowns::{Partial, Unknowns};
-use crate::damage::Whole;
+use crate::damage::Sound;
 use crate::diagnostics::{Fault, Faults};
 use crate::names::is_function;
 use crate::syntax::{Dimension, Expression, ExpressionKind, FunctionDefinition, MultiplyOperator, Name};
@@ -32,7 +32,7 @@ pub(super) const NUMBER: &str = "a number";
 pub(super) struct Dimensions<'f> {
     pub(super) faults: &'f mut Faults,
     /// The statements without other faults.
-    pub(super) whole: Rc<Whole>,
+    pub(super) sound: Rc<Sound>,
     pub(super) unknowns: Unknowns,
     pub(super) names: BTreeMap<String, Quantity>,
     /// Names that stand for numbers, for exponents.

@@ -1,8 +1,8 @@
 //! Checks the dimensions of a declaration with units, and infers those of names without one.
 //!
 //! Names are visited in their order; each fault is reported at the smallest sum, product or argument that cannot be. Statements in
-//! which other faults were found say nothing: what is left is a part of a declaration without them, and what is wrong in it is wrong
-//! in the whole.
+//! which other faults were found are skipped, and the names that they declare fit every dimension. So each fault that is found in the rest
+//! is a fault of the whole declaration.
 
 mod expressions;
 mod unknowns;
@@ -12,7 +12,7 @@ use std::rc::Rc;
 
 use guen_symbolic::Rational;
 
-use crate::damage::Whole;
+use crate::damage::Sound;
 use crate::diagnostics::{Faults, collect};
 use crate::syntax::{
     Body, ClauseWord, Contact, Declaration, Dimension, Equation, Expression, ExpressionKind, Inertia, Item,
@@ -35,13 +35,13 @@ pub(super) fn units(declaration: &Declaration, unread: usize, faults: &mut Fault
     if declared_units(declaration).is_empty() {
         return Units::new();
     }
-    let whole = Rc::new(Whole::new(declaration, faults.found(), unread));
-    let pass = |unknowns: Unknowns| collect(|faults| pass(declaration, &whole, unknowns, faults));
+    let sound = Rc::new(Sound::new(declaration, faults.found(), unread));
+    let pass = |unknowns: Unknowns| collect(|faults| pass(declaration, &sound, unknowns, faults));
     let ((units, _), report) = pass(Unknowns::default());
     if report.is_empty() {
         return units;
     }
-    // What is not annotated follows from most of its uses, and not from the first of them, which may be the fault.
+    // A name without a unit gets the dimension that most of its uses agree on. The first use may be the fault.
     let mut elected = BTreeMap::new();
     for _ in 0..MOST_ROUNDS {
         let ((_, unknowns), _) = pass(Unknowns::voting(elected.clone()));
@@ -62,13 +62,13 @@ const MOST_ROUNDS: usize = 10;
 /// Visits a declaration once.
 fn pass(
     declaration: &Declaration,
-    whole: &Rc<Whole>,
+    sound: &Rc<Sound>,
     unknowns: Unknowns,
     faults: &mut Faults,
 ) -> (Units, Unknowns) {
     let mut dimensions = Dimensions {
         faults,
-        whole: Rc::clone(whole),
+        sound: Rc::clone(sound),
         unknowns,
         names: BTreeMap::new(),
         numbers: BTreeMap::new(),
@@ -101,7 +101,7 @@ fn pass(
         }
     }
     if let Some(gravity) = gravity
-        && whole.has(gravity.value.first_token())
+        && sound.has(gravity.value.first_token())
         && let Quantity::Of(field) = dimensions.of(&gravity.value)
     {
         for (mass, position) in weights {
@@ -184,8 +184,8 @@ impl Dimensions<'_> {
     /// Declares a name with the dimension of its unit, or an unknown one.
     fn declare(&mut self, name: &Name, unit: Option<&Unit>) {
         let own = match unit {
-            Some(unit) if self.whole.is_read(name.span()) => Quantity::Of(unit.dimension.clone().into()),
-            None if self.whole.has(name.span()) => Quantity::Of(self.unknowns.fresh()),
+            Some(unit) if self.sound.is_read(name.span()) => Quantity::Of(unit.dimension.clone().into()),
+            None if self.sound.has(name.span()) => Quantity::Of(self.unknowns.fresh()),
             _ => Quantity::Anything,
         };
         self.name_of(name, own);
@@ -209,14 +209,14 @@ impl Dimensions<'_> {
     }
 
     fn energy(&mut self, written: &Written, what: &str) {
-        if self.whole.has(written.keyword) {
+        if self.sound.has(written.keyword) {
             let own = self.of(&written.value);
             self.require(&written.value, own, of("J"), what);
         }
     }
 
     fn equation(&mut self, equation: &Equation) -> Quantity {
-        if !self.whole.has(equation.name.span()) {
+        if !self.sound.has(equation.name.span()) {
             return Quantity::Anything;
         }
         let (a, b) = (self.of(&equation.left), self.of(&equation.right));
@@ -227,7 +227,7 @@ impl Dimensions<'_> {
 
     /// The dimension of the value of a statement; nothing is known where a fault was found in it.
     fn of_whole(&mut self, name: &Name, value: &Expression) -> Quantity {
-        if self.whole.has(name.span()) { self.of(value) } else { Quantity::Anything }
+        if self.sound.has(name.span()) { self.of(value) } else { Quantity::Anything }
     }
 
     fn form(&mut self, name: &Name, own: Quantity, shown: &mut Vec<String>) {
@@ -242,7 +242,7 @@ impl Dimensions<'_> {
     }
 
     fn item(&mut self, item: &Item, shown: &mut Vec<String>, weights: &mut Vec<(Partial, Partial)>) {
-        let whole = Rc::clone(&self.whole);
+        let sound = Rc::clone(&self.sound);
         match item {
             Item::Count(_) => {}
             Item::Constants(section) => {
@@ -250,9 +250,9 @@ impl Dimensions<'_> {
                     self.declare(&entry.name, entry.unit.as_ref());
                     shown.push(entry.name.text.clone());
                     let before = self.faults.count();
-                    let default = entry.default.iter().filter(|_| whole.has(entry.name.span()));
+                    let default = entry.default.iter().filter(|_| sound.has(entry.name.span()));
                     default.for_each(|default| self.value_of(&entry.name.text, default));
-                    // Those of all instances of a component are here.
+                    // All instances of a component have their constants here: a fault in a default is kept once.
                     self.faults.keep_since(before, |_| true);
                 }
             }
@@ -267,7 +267,7 @@ impl Dimensions<'_> {
                         self.forms.insert(rate.clone());
                         shown.push(rate);
                     }
-                    let limits = entry.limits.iter().filter(|_| whole.has(entry.name.span()));
+                    let limits = entry.limits.iter().filter(|_| sound.has(entry.name.span()));
                     let limits = limits.flat_map(|limits| limits.iter());
                     limits.for_each(|limit| self.value_of(&entry.name.text, limit));
                 }
@@ -277,7 +277,7 @@ impl Dimensions<'_> {
                 self.named(&argument.name, &argument.given.value, &argument.given.name);
             }
             Item::Functions(section) => {
-                for function in section.entries.iter().filter(|function| whole.has(function.name.span())) {
+                for function in section.entries.iter().filter(|function| sound.has(function.name.span())) {
                     // Each has one dimension, and so has each of its arguments, whatever the program supplies.
                     let arguments = function.arguments.iter().map(|_| self.unknowns.fresh()).collect();
                     let value = self.unknowns.fresh();
@@ -285,7 +285,7 @@ impl Dimensions<'_> {
                 }
             }
             Item::Function(function) => {
-                if whole.has(function.name.span()) && self.is_sound(function) {
+                if sound.has(function.name.span()) && self.is_sound(function) {
                     self.functions.insert(function.name.text.clone(), function.clone());
                 }
             }
@@ -319,7 +319,7 @@ impl Dimensions<'_> {
             Item::PotentialEnergy(quantity) => self.energy(quantity, "the potential energy"),
             Item::Particles(section) => {
                 for particle in &section.entries {
-                    if whole.has(particle.mass.first_token()) {
+                    if sound.has(particle.mass.first_token()) {
                         self.mass(&particle.mass, &particle.position, weights);
                     }
                 }
@@ -327,7 +327,7 @@ impl Dimensions<'_> {
             Item::Bodies(section) => section.entries.iter().for_each(|body| self.body(body, weights)),
             // Their names are known from the beginning.
             Item::States(section) => {
-                for state in section.entries.iter().filter(|state| whole.has(state.name.span())) {
+                for state in section.entries.iter().filter(|state| sound.has(state.name.span())) {
                     let own = per_second(self.names[&state.name.text].clone());
                     let rate = self.of(&state.rate);
                     let (l, r) = (format!("`dot({})`", state.name), format!("`{}`", state.rate.source()));
@@ -336,7 +336,7 @@ impl Dimensions<'_> {
                 }
             }
             Item::Forces(section) => {
-                for force in section.entries.iter().filter(|force| whole.has(force.force.first_token())) {
+                for force in section.entries.iter().filter(|force| sound.has(force.force.first_token())) {
                     let (own, along) = (self.of(&force.force), self.of(&force.direction));
                     if let (Quantity::Of(own), Quantity::Of(along)) = (own, along) {
                         let wanted = of("W").times(&along, &Rational::integer(-1));
@@ -351,7 +351,7 @@ impl Dimensions<'_> {
                 }
             }
             Item::Scene(scene) => {
-                for fix in scene.fixes.iter().filter(|fix| whole.has(fix.name.span())) {
+                for fix in scene.fixes.iter().filter(|fix| sound.has(fix.name.span())) {
                     fix.value.iter().for_each(|value| self.value_of(&fix.name.text, value));
                 }
             }
@@ -362,12 +362,12 @@ impl Dimensions<'_> {
                 }
             }
             Item::Contacts(section) => {
-                for contact in section.entries.iter().filter(|contact| whole.has(contact.name.span())) {
+                for contact in section.entries.iter().filter(|contact| sound.has(contact.name.span())) {
                     self.contact(contact);
                 }
             }
             Item::Resets(section) => {
-                for reset in section.entries.iter().filter(|reset| whole.has(reset.name.span())) {
+                for reset in section.entries.iter().filter(|reset| sound.has(reset.name.span())) {
                     self.reset(reset);
                 }
             }
@@ -378,7 +378,7 @@ impl Dimensions<'_> {
     /// A name for an expression, of a statement that begins with `place`.
     fn named(&mut self, name: &Name, value: &Expression, place: &Name) {
         let own = self.of_whole(place, value);
-        if self.whole.has(place.span()) {
+        if self.sound.has(place.span()) {
             self.numbers.extend(self.number(value).map(|number| (name.text.clone(), number)));
         }
         self.name_of(name, own);
@@ -386,7 +386,7 @@ impl Dimensions<'_> {
 
     /// A body: its mass at its centre, and its inertia.
     fn body(&mut self, body: &Body, weights: &mut Vec<(Partial, Partial)>) {
-        if !self.whole.has(body.name.span()) {
+        if !self.sound.has(body.name.span()) {
             return self.name_of(&body.name, Quantity::Anything);
         }
         if let (Some(mass), Some(center)) = (&body.mass, &body.center) {

@@ -65,7 +65,7 @@ impl Unknowns {
         Unknowns { elected, ..Unknowns::default() }
     }
 
-    /// Asks every equation what follows from it, and believes none.
+    /// Unknown dimensions that only collect what each equation says of them.
     pub(super) fn voting(elected: BTreeMap<usize, Dimension>) -> Self {
         Unknowns { elected, votes: Some(BTreeMap::new()), ..Unknowns::default() }
     }

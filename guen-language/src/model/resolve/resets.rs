@@ -10,7 +10,7 @@ impl<'a> Resolver<'a, '_> {
     /// `name: e rises, variable = e, ..;` of `resets`.
     pub(super) fn reset(&mut self, reset: &'a Reset) {
         if self.declaration.in_mode.is_some() {
-            // They change nothing there, and what they change may follow from other variables.
+            // The scene has no resets: their variables may even follow from others there.
             return;
         }
         self.eval.entry = Some(reset.name.text.clone());

@@ -112,7 +112,7 @@ impl Stage<'_> {
     fn counted(&mut self, instance: &Use, component: &Component, outer: &Known<'_>) -> Option<Rc<Part>> {
         let counts = arguments::counts(instance, component, self.faults)?;
         if !collect(|faults| component_counts::check(component, faults)).1.is_empty() {
-            // Its one struct of constants cannot fit every use: that is told where it is declared.
+            // The component has one struct of constants, which cannot fit every use. The fault is reported where it is declared.
             return None;
         }
         let before = self.faults.count();
@@ -151,7 +151,7 @@ impl Stage<'_> {
             match item {
                 Item::Component(component) => {
                     check_names(&component, self.faults);
-                    // What is wrong in it hides nothing of its uses.
+                    // Its uses are checked even where it has faults.
                     let written = self.by_itself(&component, &known);
                     found.components.push(Rc::clone(&written));
                     known.declared.push((component.name.clone(), written));

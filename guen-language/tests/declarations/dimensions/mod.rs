@@ -94,7 +94,7 @@ fn nothing_is_told_of_what_follows_from_other_faults() {
             "forces { u*a along dot(x); u along dot(z); }",
             "unknown unit",
         ),
-        // What is declared twice, and what is no velocity.
+        // Names that are declared twice, and a parameter without a velocity.
         ("let x = 1;", "k/2*z^2", "outputs { o = x + a; p = x + m; }", "`x` is declared twice"),
         (
             "parameters { v = z; }",
