@@ -27,9 +27,9 @@ type Position = (usize, usize);
 
 /// The place of a fault.
 enum Place {
-    /// Between the first token of the declaration and the last.
+    /// A line and column between the first token of the declaration and the last.
     Position(Position),
-    /// At a token from the arguments of another macro: the debug text of its span, because spans cannot be compared.
+    /// A token from the arguments of another macro: the debug text of its span, because spans cannot be compared.
     Token(String),
 }
 

@@ -65,6 +65,10 @@ fn a_fault_is_told_once() {
     // `z` has no unit, and is a length by its other uses.
     let found = told("let area = z + a*a;", energy, "");
     assert!(found.len() == 1 && found[0].contains("`z` is in m, and `a*a` is in m^2"), "{found:?}");
+    // The uses of `p` disagree until `q` is known to be a length.
+    let outputs = "outputs { one = p + m; two = p + a; three = p + q; four = q + a; five = 2*q - a; }";
+    let found = told("inputs { p, q }", energy, outputs);
+    assert!(found.len() == 1 && found[0].contains("`p` is in m, and `m` is in kg"), "{found:?}");
     // A function, whether anything calls it or not, and however often.
     let function = "fn far(r) = r*(m + a);";
     for energy in [energy, "k/2*(x^2 + z^2) + 0*far(1) + 0*far(a)"] {
