@@ -7,6 +7,7 @@ mod laws;
 mod lcp;
 mod once_failed;
 mod sensitivity;
+mod signals;
 mod tree;
 mod two_points;
 
