@@ -63,8 +63,6 @@ pub(crate) struct Damaged {
     pub(crate) damage: Damage,
     /// Whether an instance has lost its name, so that anything with members may be this instance.
     has_lost_instance: bool,
-    /// Whether a component is damaged, so that members of its instances may be missing.
-    has_lost_component: bool,
     /// Whether a count is damaged, so that entries of arrays may be missing.
     has_lost_count: bool,
 }
@@ -127,7 +125,6 @@ impl Damaged {
             names: BTreeSet::new(),
             arrays: BTreeSet::new(),
             has_lost_instance: false,
-            has_lost_component: false,
             has_lost_count: false,
             damage: if faults.is_empty() { Damage::None } else { Damage::Leaves },
         };
@@ -185,14 +182,13 @@ impl Damaged {
         }
         // Two words in a row: a name behind `as`, or behind a path without `as`.
         let is_named = || {
-            let words = |pair: &[TokenTree]| matches!(pair, [TokenTree::Ident(_), TokenTree::Ident(_)]);
+            let words = |pair: &[TokenTree]| matches!(pair, [TokenTree::Ident(_), TokenTree::Ident(name)] if name != "as");
             let behind = statement.tokens.iter().skip_while(|token| !matches!(token, TokenTree::Ident(_)));
             let behind: Vec<TokenTree> = behind.skip(1).cloned().collect();
             behind.windows(2).any(words)
         };
         match head(statement.tokens).as_deref() {
             Some("count") => self.has_lost_count = true,
-            Some("component") if depth == 1 => self.has_lost_component = true,
             Some("use") => self.has_lost_instance |= !is_named(),
             _ => {}
         }
@@ -241,17 +237,12 @@ impl Damaged {
 
     /// Adds the arrays and instances that may be missing although no damaged statement names them.
     fn add_lost(&mut self, tokens: &[TokenTree]) {
-        if !self.has_lost_component && !self.has_lost_count && !self.has_lost_instance {
+        if !self.has_lost_count && !self.has_lost_instance {
             return;
         }
         let is_dot = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Punct(mark)) if mark.as_char() == '.');
         for (place, token) in tokens.iter().enumerate() {
             match (token, tokens.get(place + 1)) {
-                (TokenTree::Ident(word), Some(TokenTree::Ident(name)))
-                    if word == "as" && self.has_lost_component =>
-                {
-                    self.arrays.insert(name.to_string());
-                }
                 (TokenTree::Ident(name), Some(TokenTree::Group(group)))
                     if group.delimiter() == Delimiter::Bracket && self.has_lost_count =>
                 {
@@ -278,10 +269,7 @@ impl Damaged {
         // The first quoted name of such a message is missing; further ones tell the place.
         let missing = message.split('`').nth(1).unwrap_or_default();
         let root = missing.split(['[', '.']).next().unwrap_or_default();
-        let has_lost = || {
-            let is_member = self.has_lost_instance && missing.contains('.');
-            is_member || self.names.contains(root) || self.arrays.contains(root)
-        };
+        let has_lost = || self.names.contains(root) || self.arrays.contains(root);
         self.statements.iter().any(|(from, to)| *from <= at && at < *to)
             || is_at_name()
             || is_missing() && has_lost()

@@ -34,7 +34,7 @@ const SOUND: &str = "system Cart {
         axle: grip = spin, limit = hold;
     }
     modes { left.sole: open; axle: stick; never floor.stick with wall.closed; }
-    outputs { power = push*u; force = reaction(wall); }
+    outputs { power = push*u; force = reaction(wall); first = s[0]; grasp = left.rubber; }
     scene Low { fix g = 1; track x; provide power; }
 }";
 
@@ -54,7 +54,7 @@ enum Part {
 use Part::{Core, Derived, Leaf, Singular};
 
 /// The part, what is right, what is wrong, and how the message begins.
-const FAULTS: [(Part, &str, &str, &str); 52] = [
+const FAULTS: [(Part, &str, &str, &str); 54] = [
     // The grammar.
     (Core, "inputs { push: N, pull }", "inputs { push: N pull }", "expected"),
     (Core, "spin = dot(phi);", "spin == dot(phi);", "expected `=`, found `==`"),
@@ -70,8 +70,10 @@ const FAULTS: [(Part, &str, &str, &str); 52] = [
     (Core, "component Foot(level: scalar,", "component Foot(level: scalr,", "expected a kind of argument"),
     (Core, "constants { rubber > 0,", "constants { rubber >> 0,", "a bound compares with `0`"),
     (Core, "use Foot as left {", "use Foot left {", "expected"),
+    (Core, "use Foot as left {", "use Foot as {", "expected"),
     (Core, "friction = rubber;", "friction = rubbr;", "unknown name `rubbr` in component `Foot`"),
     // Loops and components.
+    (Core, "{ v[i] = dot(s[i]); }", "{ v[i] = dot(s[i + 1]); }", "`s[2]` is out of range"),
     (Leaf, "along v[i];", "along v[i + 1];", "`v[2]` is out of range"),
     (Core, "level: z - x, ahead: u", "level: z - x", ""),
     (Core, "sum(i in 0..n: m/2*v[i]^2)", "sum(i in 0..n: m/2*v[i]^2*i)", ""),

@@ -191,10 +191,9 @@ impl Dimensions<'_> {
         self.name_of(name, own);
     }
 
-    /// Lets a name stand for something. Nothing is known of one that is declared twice.
+    /// Lets a name stand for something. Nothing is known of one that is declared twice: its last statement has a fault.
     fn name_of(&mut self, name: &Name, own: Quantity) {
-        let is_first = !self.names.contains_key(&name.text);
-        self.names.insert(name.text.clone(), if is_first { own } else { Quantity::Anything });
+        self.names.insert(name.text.clone(), own);
     }
 
     /// A number takes the unit of what it is a value of; what names are in has one of its own.
@@ -231,7 +230,6 @@ impl Dimensions<'_> {
     }
 
     fn form(&mut self, name: &Name, own: Quantity, shown: &mut Vec<String>) {
-        let own = if self.names.contains_key(&name.text) { Quantity::Anything } else { own };
         let name = name.text.as_str();
         for axis in ["", "_x", "_y", "_z"] {
             let name = crate::names::suffixed(name, axis);

@@ -106,9 +106,20 @@ fn nothing_is_told_of_what_follows_from_other_faults() {
             "outputs { o = v + dot(x); }",
             "parameter `v` has no velocity",
         ),
+        ("let x = 1;", "k/2*z^2", "outputs { o = a^x + m; }", "`x` is declared twice"),
     ] {
         let found = faults(&sprung(before, energy, after));
         assert!(found.len() == 1 && found[0].contains(message), "{before} {energy} {after}\n{found:?}");
+    }
+    // Nothing is told of the dimensions of a statement that has another fault.
+    let energy = "k/2*(x^2 + z^2)";
+    for (before, after, message) in [
+        ("", "scene S { fix k = 1, k = m; track x; }", "k"),
+        ("", "resets { r: x rises, x = m, x = 1; }", "x"),
+        ("inputs { u: N*foo }", "forces { u*a along dot(x); }", "foo"),
+    ] {
+        let found = faults(&sprung(before, energy, after));
+        assert!(found.len() == 1 && found[0].contains(message), "{before} {after}\n{found:?}");
     }
 }
 
