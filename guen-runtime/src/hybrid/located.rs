@@ -123,11 +123,15 @@ where
         if let Function::Signal(s) = function
             && !H::SIGNALS[s].is_switch()
         {
-            if self.sides.signals[s] == 0.0 && !self.has_left(function, (before.t, a.value)) {
-                return self.comes_back(function, before.t, (after.t, b.value));
-            }
+            let waits = self.sides.signals[s] == 0.0 && !self.has_left(function, (before.t, a.value));
             if a.value < 0.0 && a.tangent[0] > 0.0 && b.value < 0.0 && b.tangent[0] < 0.0 {
-                return self.rises_between(function, before, after);
+                let found = self.rises_between(function, before, after);
+                if found.is_some() || !waits {
+                    return found;
+                }
+            }
+            if waits {
+                return self.comes_back(function, before.t, (after.t, b.value));
             }
         }
         if b.value <= 0.0 {

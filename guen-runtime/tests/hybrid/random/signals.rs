@@ -135,7 +135,7 @@ fn drawn(random: &mut Random) -> (Signalled, [f64; 6]) {
         let of = random.below(5);
         let up = if s == SCALED { -1.0 } else { 1.0 };
         if of == 4 {
-            (factors[7], factors[8]) = (up, -up * random.between(0.9, 0.999));
+            (factors[7], factors[8]) = (up, up * (10_f64.powf(random.between(-6.0, -1.0)) - 1.0));
             continue;
         }
         for (i, factor) in factors.iter_mut().take(6).enumerate() {
