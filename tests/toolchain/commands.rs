@@ -108,10 +108,13 @@ pub fn compiler(compiler: &str, name_of_facade: &str) -> Command {
         let (messages, _) = run(cargo("check").args([
             "-p",
             "guen",
+            // The macro of the tests is built with its features.
+            "-p",
+            "guen-unified",
             "--lib",
             "--no-default-features",
             "--features",
-            "std",
+            "guen/std",
             "--message-format=json",
         ]));
         let artifact = |line: &str| {
