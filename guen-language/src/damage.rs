@@ -182,7 +182,10 @@ impl Damaged {
         }
         // Two words in a row: a name behind `as`, or behind a path without `as`.
         let is_named = || {
-            let words = |pair: &[TokenTree]| matches!(pair, [TokenTree::Ident(_), TokenTree::Ident(name)] if name != "as");
+            let words = |pair: &[TokenTree]| match pair {
+                [TokenTree::Ident(_), TokenTree::Ident(name)] => name != "as",
+                _ => false,
+            };
             let behind = statement.tokens.iter().skip_while(|token| !matches!(token, TokenTree::Ident(_)));
             let behind: Vec<TokenTree> = behind.skip(1).cloned().collect();
             behind.windows(2).any(words)

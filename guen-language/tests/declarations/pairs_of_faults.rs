@@ -122,8 +122,8 @@ const FAULTS: [(Part, &str, &str, &str); 54] = [
     (Derived, "gap = far - x;", "gap = y - x;", "the gap of `wall` never changes"),
 ];
 
-/// The beginning of a statement, and others of which nothing is known where it has a fault: entries without a count, what instances mean
-/// without a name, energies of rates without a value. What has members may be the instance.
+/// Pairs of statements: a fault in the first one hides a fault in the second. Without a count nothing is known of entries, without the
+/// name of an instance nothing of its members, and without the rates nothing of their energy.
 const LOST: [(&str, &str); 5] = [
     ("count n", "[i"),
     ("use Foot", "level - thick"),

@@ -145,6 +145,20 @@ fn spatial(random: &mut Random) -> (Spatial, [f64; 8]) {
     (Spatial(drawn), state)
 }
 
+/// Whether a typed error is one that drawn systems may end with.
+fn is_expected<const C: usize>(cause: &HybridCause<C>) -> bool {
+    matches!(
+        cause,
+        HybridCause::EnergyGain { .. }
+            | HybridCause::Painleve { .. }
+            | HybridCause::SeveralImpacts
+            | HybridCause::NoImpact
+            | HybridCause::Ambiguous { .. }
+            | HybridCause::Inconsistent
+            | HybridCause::Undetermined { .. }
+    )
+}
+
 /// Runs a system, and judges all of its motion. Typed errors that are expected are added to `ends`.
 fn judged<H, const D: usize, const N: usize, const W: usize, const C: usize>(
     (system, start): (H, [f64; N]),
@@ -160,17 +174,7 @@ where
     let motion = match system.simulation(&start).tolerance(1e-10).run(0.0..end) {
         Ok(motion) => motion,
         Err(failed) => {
-            let expected = matches!(
-                failed.error.cause,
-                HybridCause::EnergyGain { .. }
-                    | HybridCause::Painleve { .. }
-                    | HybridCause::SeveralImpacts
-                    | HybridCause::NoImpact
-                    | HybridCause::Ambiguous { .. }
-                    | HybridCause::Inconsistent
-                    | HybridCause::Undetermined { .. }
-            );
-            if !expected {
+            if !is_expected(&failed.error.cause) {
                 let last = failed.trajectory.transitions().last();
                 return Err(format!("{failed}\n{system:?}\nfrom {start:?}\n{last:#?}"));
             }
