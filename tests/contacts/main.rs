@@ -11,6 +11,7 @@ mod in_mode;
 mod json;
 mod laws;
 mod one_mode;
+mod one_mode_that_slips;
 mod permanent;
 mod permanent_loads;
 mod piecewise;

@@ -13,7 +13,7 @@ use std::rc::Rc;
 
 use guen_symbolic::{Derivation, ExprId, Programs};
 
-pub(super) use equations::ContactEquations;
+pub(super) use equations::{ContactEquations, affine};
 pub use painleve::Painleve;
 pub(super) use scene::SceneContacts;
 

@@ -2,6 +2,7 @@
 
 use guen_symbolic::{Contracted, Derivation, ExprId, Function, Graph, Node};
 
+use super::friction;
 use crate::model::Model;
 
 /// Expressions of constants that must not vanish.
@@ -45,7 +46,10 @@ pub(super) fn domain(model: &Model<'_>, derivation: &Derivation, shown: &Contrac
         let origin = format!("{pivot} in {}", listed(&names));
         Singularity { function: *e, text: words.clone(), words, origin, is_determinant: true }
     });
-    chart.chain(pivots).chain(determinants).collect()
+    let divisors = friction::divisors(model, derivation)
+        .map(|(e, origin)| named(&e, "a divisor of friction", origin.to_owned()));
+    let divisors = divisors.filter(|divisor| !model.bench.graph.manifestly_nonzero(divisor.function));
+    chart.chain(pivots).chain(determinants).chain(divisors).collect()
 }
 
 /// The reason for a factor of det A: which forms are dependent where it vanishes.

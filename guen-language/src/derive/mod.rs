@@ -15,6 +15,7 @@ mod facts;
 mod faults;
 mod fixed;
 mod formulas;
+mod friction;
 pub mod function;
 mod jacobians;
 mod kept;
@@ -59,6 +60,7 @@ pub use selection::{Held, Selection, StateIndex, StatePart};
 /// Derives a checked model and its scenes; a system without equations of motion is reported.
 pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'a>> {
     let before = faults.count();
+    friction::solve_loads(&mut model, faults)?;
     let derivation = match Derivation::new(&mut model.bench, model.mechanics.clone()) {
         Ok(derivation) => Some(derivation),
         Err(error) => {

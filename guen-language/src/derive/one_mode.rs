@@ -2,6 +2,7 @@
 //!
 //! The declaration of such a system is written out of that of the whole one, and derived as if a user had written it: gaps that stay
 //! closed under `holonomic`, slips that stay zero under `constraints`, and parameters that follow from others as names for expressions.
+//! A contact that slips holds its gap alone, and has the force of its friction.
 
 mod written;
 
@@ -132,6 +133,17 @@ fn part(
         held[active.contact][active.place] = free[k];
         undetermined[active.contact] |= related[k];
     }
+    let loose = |contact: usize| {
+        let entry = &contacts.entries[contact];
+        let loading = entry.loaded_by.map_or(contact, |row| contacts.of_row(row));
+        slides(entry.states()[mode[contact]]) && undetermined[loading]
+    };
+    if let Some(contact) = (0..contacts.entries.len()).find(|contact| loose(*contact)) {
+        let name = &contacts.entries[contact].name;
+        let fault = Fault::new(keyword, format!("the friction of `{name}` is not determined {of_scene}"));
+        faults.report(fault.note("the reaction that loads it is not: rows of contacts depend on each other"));
+        return None;
+    }
     let mut is_free = free.iter();
     rows.retain(|_| is_free.next().copied().unwrap_or(false));
     if rows.len() >= l {
@@ -187,9 +199,15 @@ fn active(
     let mut rows = facts.rows.iter();
     for (contact, (entry, state)) in contacts.entries.iter().zip(mode).enumerate() {
         let state = entry.states()[*state];
+        let slides = slides(state);
         let closes = matches!(state, ContactState::Closed | ContactState::Stick | ContactState::Locked);
-        gaps.push(entry.gap.filter(|_| closes));
-        for (place, form) in rows.by_ref().take(entry.rows.len()).enumerate().filter(|_| closes) {
+        gaps.push(entry.gap.filter(|_| closes || slides));
+        let normal = usize::from(entry.gap.is_some());
+        let is_held = |place: usize| closes || (slides && place < normal);
+        for (place, form) in rows.by_ref().take(entry.rows.len()).enumerate() {
+            if !is_held(place) {
+                continue;
+            }
             let mut row = Vec::new();
             for eta in &etas {
                 let slope = model.bench.partial(*form, *eta);
@@ -200,6 +218,11 @@ fn active(
         }
     }
     (active, gaps)
+}
+
+/// Whether a contact slips in a state.
+fn slides(state: ContactState) -> bool {
+    matches!(state, ContactState::Slip | ContactState::SlipPlus | ContactState::SlipMinus)
 }
 
 /// The gaps that are declared by their rates, by contact: points modulo a prime at which they and the others vanish would show rows as
@@ -233,7 +256,8 @@ fn by_rate(
 /// The mode of a scene in words.
 fn words(contacts: &Contacts<'_>, mode: &[usize]) -> String {
     let states = contacts.entries.iter().zip(mode);
-    let states = states.map(|(entry, state)| format!("{} {}", entry.name, entry.states()[*state].word()));
+    let states =
+        states.map(|(entry, state)| format!("{} {}", entry.name, entry.states()[*state].signed_word()));
     states.collect::<Vec<String>>().join(", ")
 }
 

@@ -21,7 +21,7 @@ use super::readable::{polish, shown};
 use super::selection::StateIndex;
 use super::{carried, formulas, series, source};
 use crate::diagnostics::{Faults, collect};
-use crate::model::{ContactEntry, Model, SceneEntry, SceneModes, slip_in_only_mode};
+use crate::model::{Model, SceneEntry, SceneModes};
 
 /// A derivation with its brackets and the equations of its contacts, as scenes share it.
 #[derive(Clone)]
@@ -99,13 +99,8 @@ pub(super) fn derive(
             let switches = if model.declaration.is_outline { contacts.switches.len() } else { 0 };
             Some(SceneContacts::new(model, contacts, modes, equations, (0..switches).collect()))
         };
-        if let (SceneModes::One(mode), Some(own), Some(contacts)) = (&scene.modes, own(model), &contacts) {
+        if let (SceneModes::One(mode), Some(own)) = (&scene.modes, own(model)) {
             if !has_resets(model, &derivation, own, scene) {
-                let entries: Vec<&ContactEntry<'_>> = contacts.entries.iter().collect();
-                if let Some(fault) = slip_in_only_mode(&entries, mode, scene.scene) {
-                    faults.report(fault);
-                    entry.modes = SceneModes::Without;
-                }
                 continue;
             }
             if let Some(fault) = undefined(model) {

@@ -24,6 +24,16 @@ impl Contacts<'_> {
     pub fn rows(&self) -> impl Iterator<Item = &Row> {
         self.entries.iter().flat_map(|entry| &entry.rows)
     }
+
+    /// The contact that a row belongs to.
+    pub fn of_row(&self, row: usize) -> usize {
+        let mut last = 0;
+        let ends = self.entries.iter().map(|entry| {
+            last += entry.rows.len();
+            last
+        });
+        ends.take_while(|end| *end <= row).count()
+    }
 }
 
 /// The kinds of contact.

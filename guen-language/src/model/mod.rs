@@ -38,7 +38,7 @@ pub use dimensions::{Units, momentum, reaction, residual};
 pub use rates::ChosenRates;
 pub(crate) use rates::nominal;
 pub use resolve::resolve;
-pub(crate) use resolve::{resolved, slip_in_only_mode};
+pub(crate) use resolve::resolved;
 pub(crate) use scenes::is_carried_form;
 
 /// A checked system.
@@ -81,6 +81,10 @@ pub struct Model<'a> {
     pub followers: Vec<Follower>,
     /// Symbols of reactions that are not determined, where the system is another one in a single mode.
     pub undetermined: Vec<ExprId>,
+    /// The reactions that friction depends on, where the system is another one in a mode in which contacts slip.
+    pub loads: Vec<Load<'a>>,
+    /// The functions that this friction divides by.
+    pub divisors: Vec<Divisor>,
     /// Scenes whose names are sound.
     pub scenes: Vec<SceneEntry<'a>>,
     /// Whether the system or a scene provides operators: then all brackets are derived.
@@ -176,6 +180,26 @@ impl Model<'_> {
     pub fn last_operator(&self) -> usize {
         if self.provides_operators { self.coordinates.len() } else { self.mechanics.forms.degrees }
     }
+}
+
+/// A reaction that friction depends on.
+pub struct Load<'a> {
+    /// The contact or grip that slips.
+    pub name: &'a Name,
+    /// The symbol that stands for it in forces, outputs and rates.
+    pub symbol: ExprId,
+    /// The symbol of the reaction, which the derivation knows.
+    pub reaction: ExprId,
+    /// Whether its magnitude is meant.
+    pub is_magnitude: bool,
+}
+
+/// A function that must not vanish beside those that follow from the motion.
+pub struct Divisor {
+    /// The place among the outputs of the mechanics.
+    pub output: usize,
+    /// The reason: what is not there where it vanishes.
+    pub origin: String,
 }
 
 /// A physical constant.

@@ -28,14 +28,13 @@ use super::scope::{Category, Scope};
 use super::shapes::Shapes;
 use super::spatial::inner;
 use super::value::{BodyValue, Value};
-use super::{BodyEntry, ConstantEntry, Model, OutputEntry, SceneEntry, SymbolEntry};
+use super::{BodyEntry, ConstantEntry, Load, Model, OutputEntry, SceneEntry, SymbolEntry};
 use crate::damage::Damage;
 use crate::diagnostics::{Fault, Faults};
 use crate::syntax::{
     Argument, ArgumentKind, Declaration, Definition, Expression, ExpressionKind, Force as WrittenForce, Item,
     Quantity, Scene, SectionKind,
 };
-pub(crate) use contacts::slip_in_only_mode;
 
 /// Checks names, kinds and forms. `None` if a fault was reported that leaves no model; after faults in what the motion does not need,
 /// such as outputs, forces and contacts, the model is partial.
@@ -125,6 +124,10 @@ struct Resolver<'a, 'f> {
     contacts: Vec<contacts::RawContact<'a>>,
     /// Symbols of reactions that are not determined.
     undetermined: Vec<ExprId>,
+    /// The reactions that the friction of slipping contacts depends on.
+    loads: Vec<Load<'a>>,
+    /// The squares of slips in a plane, whose directions friction needs, each with its reason.
+    slips: Vec<(ExprId, String)>,
     /// Scenes as written: they may name parameters that are chosen once all forms are known.
     written_scenes: Vec<&'a Scene>,
     output_values: Vec<ExprId>,
@@ -187,6 +190,8 @@ impl<'a, 'f> Resolver<'a, 'f> {
             resets: Vec::new(),
             contacts: Vec::new(),
             undetermined: Vec::new(),
+            loads: Vec::new(),
+            slips: Vec::new(),
             written_scenes: Vec::new(),
             output_values: Vec::new(),
             provides_operators: false,

@@ -240,6 +240,17 @@ pub struct InMode {
     pub words: String,
 }
 
+/// The direction of a slip that goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SlipDirection {
+    /// Along its line, where the velocity is positive.
+    Positive,
+    /// Along its line, where the velocity is negative.
+    Negative,
+    /// In its plane, along the velocity.
+    Velocity,
+}
+
 /// A contact that stays in one state.
 #[derive(Debug, Clone, Default)]
 pub struct HeldContact {
@@ -249,6 +260,8 @@ pub struct HeldContact {
     pub gap_by_rate: bool,
     /// The equations of its slip, where that stays zero.
     pub slip: Vec<Equation>,
+    /// The direction in which it slips, where it does.
+    pub slides: Option<SlipDirection>,
     /// Whether each row is a constraint of the mode.
     pub rows: Vec<bool>,
     /// Whether its reactions are not determined, because its rows depend on others.

@@ -24,7 +24,7 @@ pub use component::{
 };
 pub use contact::{
     Assignment, Clause, ClauseWord, Contact, Crossing, HeldContact, InMode, ModeStatement, Reset, SPEED,
-    StatesType, Switch, type_of_states,
+    SlipDirection, StatesType, Switch, type_of_states,
 };
 pub use expression::{AddOperator, Expression, ExpressionKind, Factor, Fold, MultiplyOperator, Order, Term};
 pub use index::{

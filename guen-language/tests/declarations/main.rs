@@ -8,6 +8,7 @@ mod components;
 mod components_alone;
 mod corpus;
 mod dimensions;
+mod drawn_modes;
 mod families;
 mod functions;
 mod grammar_of_the_page;

@@ -196,7 +196,11 @@ pub(in crate::derive) fn derive(
 }
 
 /// Each of some expressions without forces, before its derivatives by them, in which it is linear.
-fn affine(bench: &mut Workbench, forces: &[ExprId], expressions: &[ExprId]) -> Vec<ExprId> {
+pub(in crate::derive) fn affine(
+    bench: &mut Workbench,
+    forces: &[ExprId],
+    expressions: &[ExprId],
+) -> Vec<ExprId> {
     let zero = bench.graph.zero();
     let mut unpressed = Substitution::new(forces.iter().map(|force| (*force, zero)));
     let mut found = Vec::new();

@@ -8,11 +8,11 @@ use proc_macro2::{Ident, Span};
 use super::{Part, not_held, words};
 use crate::derive::selection::StatePart;
 use crate::diagnostics::{Fault, Faults};
-use crate::model::{ContactEntry, Contacts, FormEntry, Model, SceneEntry};
+use crate::model::{ContactEntry, ContactState, Contacts, FormEntry, Model, SceneEntry};
 use crate::names::{RATE_SUFFIX, suffixed};
 use crate::syntax::{
     Clause, ClauseWord, Contact, Declaration, Definition, Docs, Equation, Expression, ExpressionKind,
-    HeldContact, InMode, Item, Name, Number, Scene, Section,
+    HeldContact, InMode, Item, Name, Number, Scene, Section, SlipDirection,
 };
 
 /// The declaration in which a scene is one of a smooth system; `None` after a fault.
@@ -73,19 +73,20 @@ pub(super) fn in_mode(
         _ => None,
     });
     let written: Vec<&Contact> = written.flatten().collect();
+    let mode = scene.single_mode()?;
     let held = contacts.entries.iter().enumerate().map(|(place, entry)| {
         let contact = written.iter().find(|contact| contact.name.text == entry.name.text);
         let is_undetermined = part.undetermined[place];
         match contact {
             Some(contact) => {
                 let rows = (&part.held[place][..], part.by_rate[place]);
-                HeldContact { is_undetermined, ..held(contact, entry, rows, &mut taken) }
+                let slides = direction(entry.states()[mode[place]]);
+                HeldContact { is_undetermined, slides, ..held(contact, entry, rows, &mut taken) }
             }
             None => HeldContact::default(),
         }
     });
     let contacts_held = held.collect();
-    let mode = words(contacts, scene.single_mode()?);
     let reset = contacts.resets.iter().flat_map(|reset| &reset.assignments);
     let (_, size) = model.sizes();
     let name = |variable: ExprId| {
@@ -93,7 +94,7 @@ pub(super) fn in_mode(
         Some(model.variable_name(place).to_owned())
     };
     let reset = reset.filter_map(|(variable, _)| name(*variable)).collect();
-    let in_mode = InMode { contacts: contacts_held, followers, tracked, reset, words: mode };
+    let in_mode = InMode { contacts: contacts_held, followers, tracked, reset, words: words(contacts, mode) };
     Some(Declaration {
         items,
         origins,
@@ -219,7 +220,17 @@ fn held(
             }));
         }
     }
-    HeldContact { gap, gap_by_rate: by_rate, slip, rows: rows.to_vec(), is_undetermined: false }
+    HeldContact { gap, gap_by_rate: by_rate, slip, slides: None, rows: rows.to_vec(), is_undetermined: false }
+}
+
+/// The direction of a slip in a state.
+fn direction(state: ContactState) -> Option<SlipDirection> {
+    match state {
+        ContactState::SlipPlus => Some(SlipDirection::Positive),
+        ContactState::SlipMinus => Some(SlipDirection::Negative),
+        ContactState::Slip => Some(SlipDirection::Velocity),
+        _ => None,
+    }
 }
 
 const AXES: [&str; 3] = ["x", "y", "z"];

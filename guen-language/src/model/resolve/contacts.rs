@@ -17,7 +17,6 @@ use crate::model::contact::{ContactEntry, ContactKind, Row, SwitchEntry};
 use crate::model::value::ContactValue;
 use crate::syntax::{Clause, ClauseWord, Contact, StatesType, Switch, type_of_states};
 
-pub(crate) use assembled::slip_in_only_mode;
 pub(super) use assembled::{assembled, modes_of_scene};
 
 /// A contact on its way into the model: with the structure of its rows.
@@ -59,9 +58,9 @@ impl<'a> Resolver<'a, '_> {
         self.eval.scope.declare(self.eval.faults, &contact.name, Category::Contact, None);
         self.type_of_states(contact);
         match entry {
-            Ok(entry) if self.contacts.len() < MAX_CONTACTS => {
+            Ok(mut entry) if self.contacts.len() < MAX_CONTACTS => {
                 let value = match &self.declaration.in_mode {
-                    Some(mode) => self.hold(&entry.entry, &mode.contacts[self.contacts.len()]),
+                    Some(mode) => self.hold(&mut entry, &mode.contacts[self.contacts.len()]),
                     None => self.value_of(&entry.entry),
                 };
                 self.eval.contacts.insert(contact.name.text.clone(), value);

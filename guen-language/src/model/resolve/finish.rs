@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::model::contact::ContactEntry;
-use crate::model::{Follower, SceneModes};
+use crate::model::{Divisor, Follower, SceneModes};
 
 impl<'a> Resolver<'a, '_> {
     /// Puts the model together, out of what the items left, and says whether what the motion needs is sound.
@@ -61,13 +61,8 @@ impl<'a> Resolver<'a, '_> {
             } else if has_contacts {
                 let entries: Vec<&ContactEntry<'_>> =
                     self.contacts.iter().map(|contact| &contact.entry).collect();
-                let found = contacts::modes_of_scene(
-                    (&entries, &missing),
-                    &self.resets,
-                    modes.as_deref(),
-                    scene,
-                    self.eval.faults,
-                );
+                let known = (&entries[..], &missing);
+                let found = contacts::modes_of_scene(known, modes.as_deref(), scene, self.eval.faults);
                 of_scene = found.unwrap_or(SceneModes::Without);
             }
             let is_idle = !has_contacts && !self.declaration.is_outline;
@@ -131,6 +126,7 @@ impl<'a> Resolver<'a, '_> {
             .map(|(symbol, rate)| FirstOrderState { symbol: *symbol, rate: rate.unwrap_or(*symbol) })
             .collect();
         states.iter_mut().for_each(|state| written_out(&mut state.rate));
+        self.slips.iter_mut().for_each(|(function, _)| written_out(function));
         self.forces
             .iter_mut()
             .flat_map(|force| [&mut force.magnitude, &mut force.along])
@@ -231,6 +227,11 @@ impl<'a> Resolver<'a, '_> {
                 mechanics.outputs.push(*value);
             }
         }
+        let mut divisors = Vec::new();
+        for (function, origin) in self.slips {
+            divisors.push(Divisor { output: mechanics.outputs.len(), origin });
+            mechanics.outputs.push(function);
+        }
         let contacts = modes.zip(pressed).map(|(modes, structure)| {
             contacts::assembled(
                 bench,
@@ -266,6 +267,8 @@ impl<'a> Resolver<'a, '_> {
             contacts,
             followers,
             undetermined: self.undetermined,
+            loads: self.loads,
+            divisors,
             scenes,
             left_out: self.eval.left_out,
             provides_operators,

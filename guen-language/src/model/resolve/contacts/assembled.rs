@@ -4,7 +4,7 @@ use guen_symbolic::{Function, Rational, SystemGraph, Workbench};
 
 use super::*;
 use crate::model::SceneModes;
-use crate::model::contact::{ContactState, Contacts};
+use crate::model::contact::Contacts;
 
 /// The contacts with the mechanics that their forces act on. In the system itself no force acts, and switches follow the state.
 pub(in crate::model::resolve) fn assembled<'a>(
@@ -96,7 +96,6 @@ pub(super) fn value_of_switch(graph: &mut Graph, function: ExprId) -> ExprId {
 /// The modes of a scene of a system with contacts or switches; `None` after a fault.
 pub(in crate::model::resolve) fn modes_of_scene(
     (entries, missing): (&[&ContactEntry<'_>], &BTreeSet<String>),
-    resets: &[ResetEntry<'_>],
     modes: Option<&[Vec<usize>]>,
     scene: &Scene,
     faults: &mut Faults,
@@ -107,32 +106,5 @@ pub(in crate::model::resolve) fn modes_of_scene(
         false => super::super::modes::of_scene((entries, missing), modes, scene, faults)?,
     };
     let [mode] = &left[..] else { return Some(SceneModes::Several(left)) };
-    // A scene that has resets runs through its mode, and there contacts slip. The derivation tells which it has.
-    if resets.is_empty()
-        && let Some(fault) = slip_in_only_mode(entries, mode, scene)
-    {
-        faults.report(fault);
-        return None;
-    }
     Some(SceneModes::One(mode.clone()))
-}
-
-/// Refuses a contact that slips in the only mode of a scene.
-pub(crate) fn slip_in_only_mode(
-    entries: &[&ContactEntry<'_>],
-    mode: &[usize],
-    scene: &Scene,
-) -> Option<Fault> {
-    let slips = |entry: &ContactEntry<'_>, state: usize| {
-        let state = entry.states()[state];
-        matches!(state, ContactState::Slip | ContactState::SlipPlus | ContactState::SlipMinus)
-    };
-    let entry = entries.iter().zip(mode).find(|(entry, state)| slips(entry, **state))?.0;
-    let text = format!("`{}` slips in the only mode of scene `{}`", entry.name, scene.name);
-    let keyword = scene.modes.first().map_or(scene.keyword, |section| section.keyword);
-    let fault = Fault::new(keyword, text);
-    let fault = fault.note(
-        "friction gives the force of a contact that slips, and a scene in one mode has constraints alone",
-    );
-    Some(fault.help("run the system itself, or its `in_mode`"))
 }
