@@ -169,10 +169,16 @@ fn units_follow_from_others() {
 #[test]
 fn what_is_left_out_changes_nothing_that_is_right() {
     let names = ["m", "M", "l", "g", "c", "k", "T", "I", "push", "x", "q"];
-    // All subsets of at most three.
+    // All subsets of at most three; in a run of all tests, which are not optimised, every fourth one.
+    let step = if std::env::var_os("GUEN_ROUNDS").is_some() { 1 } else { 4 };
+    let mut place = 0;
     for a in 0..names.len() {
         for b in a..names.len() {
             for c in b..names.len() {
+                place += 1;
+                if place % step != 0 {
+                    continue;
+                }
                 let mut left = vec![names[a], names[b], names[c]];
                 left.dedup();
                 let text = without(&left);

@@ -110,7 +110,7 @@ fn compare<H, const N: usize, const W: usize, const C: usize>(
 
 #[test]
 fn derivatives_through_drawn_transitions() {
-    let rounds = rounds(2);
+    let rounds = rounds(1);
     let mut compared = Compared::default();
     let mut random = Random(1_969);
     for _ in 0..rounds {
