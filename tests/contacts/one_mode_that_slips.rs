@@ -141,6 +141,20 @@ fn a_rod_slips_both_ways() {
     }
 }
 
+/// Where friction presses the tip into the ground there is no motion, or another one beside it.
+#[test]
+fn a_rod_has_no_motion_in_a_paradox() {
+    let rod = |mu: f64| rod::Ahead { mu, ..Default::default() }.prepare().unwrap();
+    let start = rod::ahead::State { x: 0.0, tilt: 1.0, u: 1.0, turn: 0.0 };
+    let inputs = rod::ahead::Inputs { push: 0.0 };
+    assert!(rod(0.5).driven(inputs).simulate(&start, 0.0..0.01).is_ok());
+    let error = rod(3.0).driven(inputs).simulate(&start, 0.0..0.01).unwrap_err().to_string();
+    assert!(error.contains("must not vanish"), "{error}");
+    let reason =
+        rod::ahead::DOMAIN_REASONS.iter().any(|reason| reason.contains("the friction of tip_on_ground"));
+    assert!(reason, "{:?}", rod::ahead::DOMAIN_REASONS);
+}
+
 #[test]
 fn a_ball_slips_in_all_directions() {
     let system = Ball::default().prepare().unwrap();

@@ -51,7 +51,8 @@ pub(super) fn solve_loads(model: &mut Model<'_>, faults: &mut Faults) -> Option<
     }
     let (pivots, divisors) = eliminate(model, &mut free, &mut slopes);
     for (divisor, load) in divisors.into_iter().zip(&model.loads) {
-        let origin = format!("the reaction that loads the friction of {} has no value", load.name);
+        let origin =
+            format!("the reaction that loads the friction of {} has no value, or several", load.name);
         model.divisors.push(Divisor { output: model.mechanics.outputs.len(), origin });
         model.mechanics.outputs.push(divisor);
     }
@@ -76,7 +77,7 @@ pub(super) fn solve_loads(model: &mut Model<'_>, faults: &mut Faults) -> Option<
 }
 
 /// Brings `N = free + slopes N` to the form in which each load depends on those behind it. Returns the pivots, and functions of the
-/// state that vanish where these do. A magnitude stands last, where `N = |free + slope N|` has the one solution
+/// state that vanish where these are not positive. A magnitude stands last, where `N = |free + slope N|` has the one solution
 /// `|free|/(1 - sign(free) slope)` while the slope lies between minus one and one.
 fn eliminate(
     model: &mut Model<'_>,
@@ -84,7 +85,7 @@ fn eliminate(
     slopes: &mut [Vec<ExprId>],
 ) -> (Vec<ExprId>, Vec<ExprId>) {
     let bench = &mut model.bench;
-    let one = bench.graph.one();
+    let (zero, one) = (bench.graph.zero(), bench.graph.one());
     let (mut pivots, mut divisors) = (Vec::new(), Vec::new());
     for (k, load) in model.loads.iter().enumerate() {
         let mut slope = slopes[k][k];
@@ -99,7 +100,10 @@ fn eliminate(
         let pivot = bench.graph.sub(one, slope);
         let pivot = bench.tidy(pivot);
         pivots.push(bench.keep_large(pivot));
-        divisors.push(bench.tidy(divisor));
+        let divisor = bench.tidy(divisor);
+        // Below zero a load has no value or several, as where it vanishes.
+        let is_safe = bench.graph.manifestly_positive(divisor);
+        divisors.push(if is_safe { divisor } else { bench.graph.maximum(divisor, zero) });
         for i in k + 1..free.len() {
             let factor = bench.graph.div(slopes[i][k], pivots[k]);
             let plus = |bench: &mut Workbench, to: ExprId, from: ExprId| {
