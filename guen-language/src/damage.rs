@@ -65,6 +65,8 @@ pub(crate) struct Damaged {
     has_lost_instance: bool,
     /// Whether a count is damaged, so that entries of arrays may be missing.
     has_lost_count: bool,
+    /// Whether a component has lost its name.
+    has_lost_component: bool,
 }
 
 /// The statements of a declaration in which no fault was found.
@@ -126,6 +128,7 @@ impl Damaged {
             arrays: BTreeSet::new(),
             has_lost_instance: false,
             has_lost_count: false,
+            has_lost_component: false,
             damage: if faults.is_empty() { Damage::None } else { Damage::Leaves },
         };
         for fault in faults {
@@ -192,6 +195,9 @@ impl Damaged {
         };
         match head(statement.tokens).as_deref() {
             Some("count") => self.has_lost_count = true,
+            Some("component") => {
+                self.has_lost_component |= !is_followed_by_a_name(statement.tokens, "component")
+            }
             Some("use") => self.has_lost_instance |= !is_named(),
             _ => {}
         }
@@ -276,6 +282,7 @@ impl Damaged {
         self.statements.iter().any(|(from, to)| *from <= at && at < *to)
             || is_at_name()
             || is_missing() && has_lost()
+            || self.has_lost_component && message.starts_with("unknown component")
     }
 }
 
@@ -307,6 +314,12 @@ fn without_crate_path(tokens: &[TokenTree]) -> &[TokenTree] {
         }
         _ => tokens,
     }
+}
+
+/// Whether a name follows a word.
+fn is_followed_by_a_name(tokens: &[TokenTree], word: &str) -> bool {
+    let mut behind = tokens.iter().skip_while(|token| !matches!(token, TokenTree::Ident(own) if own == word));
+    matches!(behind.nth(1), Some(TokenTree::Ident(_)))
 }
 
 /// The debug texts of the spans of a token. For a group also those of its delimiters, at which some faults are reported.
