@@ -320,7 +320,7 @@ fn rounds_that_once_failed_keep_the_laws() {
 fn spatial_slips_end_in_a_mode() {
     let mut random = Random(20_261_124);
     let mut reversed = 0;
-    for _ in 0..rounds(12) {
+    for _ in 0..rounds(40) {
         stops(&mut random);
         feet(&mut random);
         mixed(&mut random);

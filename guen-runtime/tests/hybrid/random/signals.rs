@@ -316,7 +316,7 @@ fn cannot_go_on(system: &Signalled, motion: &Motion) -> bool {
 
 #[test]
 fn signals_do_what_they_say_and_the_laws_hold() {
-    let rounds = rounds(4);
+    let rounds = rounds(6);
     let mut random = Random(20_261_128);
     let (mut laws, mut count, mut ends, mut wrong) = (Judged::default(), Count::default(), Vec::new(), 0);
     for round in 0..rounds {
