@@ -9,7 +9,7 @@ use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 
 use crate::diagnostics::{Fault, file_of, position_of};
 use crate::names::array_of;
-use crate::syntax::{Declaration, Index, Item};
+use crate::syntax::{ComponentPath, Declaration, Index, Item};
 
 /// The parts that a declaration lacks because of faults that were reported before.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -65,8 +65,10 @@ pub(crate) struct Damaged {
     has_lost_instance: bool,
     /// Whether a count is damaged, so that entries of arrays may be missing.
     has_lost_count: bool,
-    /// Whether a component has lost its name.
-    has_lost_component: bool,
+    /// The names of components whose heads are damaged.
+    lost_components: BTreeSet<String>,
+    /// Whether a component has lost its name, so that any unknown one may be this component.
+    has_unnamed_component: bool,
 }
 
 /// The statements of a declaration in which no fault was found.
@@ -128,7 +130,8 @@ impl Damaged {
             arrays: BTreeSet::new(),
             has_lost_instance: false,
             has_lost_count: false,
-            has_lost_component: false,
+            lost_components: BTreeSet::new(),
+            has_unnamed_component: false,
             damage: if faults.is_empty() { Damage::None } else { Damage::Leaves },
         };
         for fault in faults {
@@ -195,9 +198,12 @@ impl Damaged {
         };
         match head(statement.tokens).as_deref() {
             Some("count") => self.has_lost_count = true,
-            Some("component") => {
-                self.has_lost_component |= !is_followed_by_a_name(statement.tokens, "component")
-            }
+            Some("component") => match word_behind(statement.tokens, "component") {
+                Some(name) => {
+                    self.lost_components.insert(name);
+                }
+                None => self.has_unnamed_component = true,
+            },
             Some("use") => self.has_lost_instance |= !is_named(),
             _ => {}
         }
@@ -269,6 +275,11 @@ impl Damaged {
         }
     }
 
+    /// Whether a component that nothing declares may be one that is damaged here, and no macro of that name exists.
+    pub(crate) fn may_declare(&self, path: &ComponentPath) -> bool {
+        path.is_name() && (self.has_unnamed_component || self.lost_components.contains(&path.text))
+    }
+
     /// Whether a fault that was found in what is left may be a consequence of the damage.
     pub(crate) fn explains(&self, fault: &Fault) -> bool {
         let at = position_of(fault.span());
@@ -282,7 +293,7 @@ impl Damaged {
         self.statements.iter().any(|(from, to)| *from <= at && at < *to)
             || is_at_name()
             || is_missing() && has_lost()
-            || self.has_lost_component && message.starts_with("unknown component")
+            || self.has_unnamed_component && message.starts_with("unknown component")
     }
 }
 
@@ -316,10 +327,13 @@ fn without_crate_path(tokens: &[TokenTree]) -> &[TokenTree] {
     }
 }
 
-/// Whether a name follows a word.
-fn is_followed_by_a_name(tokens: &[TokenTree], word: &str) -> bool {
+/// The word behind another.
+fn word_behind(tokens: &[TokenTree], word: &str) -> Option<String> {
     let mut behind = tokens.iter().skip_while(|token| !matches!(token, TokenTree::Ident(own) if own == word));
-    matches!(behind.nth(1), Some(TokenTree::Ident(_)))
+    match behind.nth(1) {
+        Some(TokenTree::Ident(name)) => Some(name.to_string()),
+        _ => None,
+    }
 }
 
 /// The debug texts of the spans of a token. For a group also those of its delimiters, at which some faults are reported.

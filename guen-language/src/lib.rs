@@ -53,7 +53,7 @@ pub fn expand(tokens: TokenStream) -> TokenStream {
     let Some(declaration) = declaration else {
         return report.to_compile_errors();
     };
-    let paths = syntax::imports(&declaration.items);
+    let paths = components::imports(&declaration.items, &tokens, &report);
     if !paths.is_empty() {
         return components::gather(declaration.crate_path.as_ref(), "mechanical_system_with", &paths, tokens);
     }
@@ -67,7 +67,8 @@ pub fn expand_with(tokens: TokenStream) -> TokenStream {
     let Some(mut declaration) = declaration else {
         return report.to_compile_errors();
     };
-    declaration.imported = components::imported(&syntax::imports(&declaration.items), &bundles);
+    let paths = components::imports(&declaration.items, &tokens, &report);
+    declaration.imported = components::imported(&paths, &bundles);
     if declaration.imported.iter().any(|imported| imported.is_faulty) {
         // The faults are reported where the components are declared.
         let mut items = report.to_compile_errors();

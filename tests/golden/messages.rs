@@ -11,7 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use guen_language::diagnostics::{FaultReport, POINTER, collect};
-use guen_language::{derive, emit, expand_outline, model, names, parse, with_further_faults};
+use guen_language::{derive, emit, expand, expand_outline, model, names, parse, with_further_faults};
 use proc_macro2::{Span, TokenStream, TokenTree};
 
 /// A file with a faulty declaration.
@@ -114,6 +114,8 @@ fn reports(tokens: TokenStream) -> Vec<FaultReport> {
     let (declaration, report) = parse::parse(tokens.clone());
     let Some(declaration) = declaration else { return vec![report] };
     if !report.is_empty() {
+        let items = expand(tokens.clone()).to_string();
+        assert!(items.contains("compile_error"), "no error, but `{}`", items.split('{').next().unwrap());
         return vec![with_further_faults(&tokens, &declaration, report)];
     }
     let mut reports = vec![report];

@@ -16,7 +16,7 @@ use crate::diagnostics::{Fault, FaultReport, Faults, collect};
 use crate::emit;
 use crate::model;
 use crate::parse;
-use crate::syntax::{Component, Declaration, Imported, Item, imports};
+use crate::syntax::{Component, ComponentPath, Declaration, Imported, Item, undeclared_components};
 use crate::unfold;
 
 pub(crate) use gather::{Gathered, gather, imported, split};
@@ -27,8 +27,7 @@ pub(crate) fn expand(tokens: TokenStream) -> TokenStream {
     let Some(component) = component else {
         return report.to_compile_errors();
     };
-    let paths = imports(&component.items);
-    let paths: Vec<_> = paths.into_iter().filter(|path| path.text != component.name.text).collect();
+    let paths = imports_of(&component, &tokens, &report);
     if !paths.is_empty() {
         return gather(component.crate_path.as_ref(), "mechanical_component_with", &paths, tokens);
     }
@@ -51,8 +50,7 @@ fn finish(
     bundles: Vec<Group>,
     report: FaultReport,
 ) -> TokenStream {
-    let paths = imports(&component.items);
-    let paths: Vec<_> = paths.into_iter().filter(|path| path.text != component.name.text).collect();
+    let paths = imports_of(&component, &tokens, &report);
     component.imported = imported(&paths, &bundles);
     let damaged = Damaged::new(&tokens, &component.items, report.faults());
     let (constants, further) = collect(|faults| {
@@ -77,6 +75,26 @@ fn finish(
     let facade = component.crate_path.clone().unwrap_or_else(|| quote::quote!(::guen));
     items.extend(structure(&component, &constants, &facade));
     items
+}
+
+/// The paths of the components that items use and that other invocations declare, each once, in the order of the uses.
+pub(crate) fn imports<'i>(
+    items: &'i [Item],
+    tokens: &TokenStream,
+    report: &FaultReport,
+) -> Vec<&'i ComponentPath> {
+    let damaged = Damaged::new(tokens, items, report.faults());
+    undeclared_components(items).into_iter().filter(|path| !damaged.may_declare(path)).collect()
+}
+
+/// The paths that the items of a component import.
+fn imports_of<'c>(
+    component: &'c Component,
+    tokens: &TokenStream,
+    report: &FaultReport,
+) -> Vec<&'c ComponentPath> {
+    let paths = imports(&component.items, tokens, report);
+    paths.into_iter().filter(|path| path.text != component.name.text).collect()
 }
 
 /// The struct of the constants; nothing where these have faults.
@@ -113,11 +131,10 @@ fn unbundle(group: &Group) -> Option<(Component, bool)> {
         _ => None,
     });
     let own = groups.next()?;
-    let (component, _) = parse::parse_component(own.stream());
+    let (component, report) = parse::parse_component(own.stream());
     let mut component = component?;
     let inner: Vec<Group> = groups.collect();
-    let paths = imports(&component.items);
-    let paths: Vec<_> = paths.into_iter().filter(|path| path.text != component.name.text).collect();
+    let paths = imports_of(&component, &own.stream(), &report);
     let found: Vec<Imported> = imported(&paths, &inner);
     component.imported = found;
     Some((component, is_faulty))

@@ -191,7 +191,7 @@ impl Declaration {
 }
 
 /// The paths of the components that items use and do not declare, each once, in the order of the uses.
-pub fn imports(items: &[Item]) -> Vec<&ComponentPath> {
+pub fn undeclared_components(items: &[Item]) -> Vec<&ComponentPath> {
     let mut found: Vec<&ComponentPath> = Vec::new();
     collect(items, &[], &mut found);
     found

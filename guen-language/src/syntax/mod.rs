@@ -20,7 +20,7 @@ mod walk;
 
 pub use component::{
     Argument, ArgumentKind, Component, ComponentPath, DeclaredArgument, GivenArgument, Imported, Instance,
-    Use, imports,
+    Use, undeclared_components,
 };
 pub use contact::{
     Assignment, Clause, ClauseWord, Contact, Crossing, HeldContact, InMode, ModeStatement, Reset, SPEED,
