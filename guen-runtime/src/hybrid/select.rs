@@ -9,7 +9,7 @@ use crate::hybrid::in_mode::{InMode, motion_series};
 use crate::hybrid::mode::{ElementState, Mode};
 use crate::hybrid::mode_rows::Leaning;
 use crate::hybrid::system::HybridSystem;
-use crate::hybrid::vanishing::{ROUNDING, VANISHING, vanishes, vanishes_within};
+use crate::hybrid::vanishing::{ROUNDING, VANISHING, is_rounding, vanishes, vanishes_within};
 use crate::numbers::power_series::PowerSeries;
 use crate::numbers::running_error::RunningError;
 
@@ -136,6 +136,9 @@ fn candidates(kind: Kind, components: usize, known: &Known, sign: f64) -> ([Elem
 
 /// The part of the largest force or acceleration by which values may break the laws of a mode before they contradict it.
 const VIOLATED: f64 = 1e-6;
+
+/// The part of the largest acceleration below which a row that is left out of the solve counts as held by the others.
+const HELD: f64 = 1e-8;
 
 /// Selects the mode that goes on from a time and state. Terms that are small beside what they are made of count as zero. If no mode fits then,
 /// or one that the values themselves contradict, as where rows nearly depend on each other, roundings alone count as zero.
@@ -330,7 +333,13 @@ where
         if redundant {
             // Rows that are left out have to be held by the others: at a dead centre they are not, though they depend on them there.
             let accelerations = motion.row_accelerations();
-            let held = |row: &usize| vanishes(accelerations[*row].coefficient(0));
+            let sizes = motion.free.biases.iter().map(|bias| bias.coefficient(0).value.abs());
+            let fastest = sizes.fold(f64::MIN_POSITIVE, f64::max);
+            let held = |row: &usize| {
+                let acceleration = accelerations[*row].coefficient(0);
+                let is_small = acceleration.value.abs() <= HELD * fastest;
+                vanishes(acceleration) && (is_small || is_rounding(acceleration))
+            };
             if !self.pivots.dependent().iter().all(held) {
                 return Verdict::Inconsistent;
             }

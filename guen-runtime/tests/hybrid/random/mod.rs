@@ -264,7 +264,9 @@ fn drawn_systems_keep_the_laws() {
 }
 
 /// Rounds with families in which something was once wrong.
-const ONCE_FAILED: [(usize, usize); 19] = [
+const ONCE_FAILED: [(usize, usize); 20] = [
+    // Two feet nearly in line with the hinge between them: the row that the others were to hold was not held, by half a millionth.
+    (2130, 3),
     // Everything came to rest at once: rates that the last digit of the time makes of accelerations were taken for motion.
     (622, 3),
     (905, 2),
@@ -320,7 +322,7 @@ fn rounds_that_once_failed_keep_the_laws() {
 fn spatial_slips_end_in_a_mode() {
     let mut random = Random(20_261_124);
     let mut reversed = 0;
-    for _ in 0..rounds(40) {
+    for _ in 0..40 {
         stops(&mut random);
         feet(&mut random);
         mixed(&mut random);
