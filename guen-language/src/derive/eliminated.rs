@@ -56,10 +56,9 @@ pub(super) fn add(model: &mut Model<'_>, system: &Level, scenes: &mut [Level]) {
 
 /// Whether something is closed in a mode, and nothing slips.
 fn is_held(contacts: &Contacts<'_>, mode: &[usize]) -> bool {
-    use ContactState::{Closed, Locked, Slip, SlipMinus, SlipPlus, Stick};
+    use ContactState::{Closed, Locked, Stick};
     let states = || contacts.entries.iter().zip(mode).map(|(entry, state)| entry.states()[*state]);
-    states().any(|state| matches!(state, Closed | Stick | Locked))
-        && !states().any(|state| matches!(state, Slip | SlipPlus | SlipMinus))
+    states().any(|state| matches!(state, Closed | Stick | Locked)) && !states().any(ContactState::slips)
 }
 
 /// The program of the rates of what a scene keeps in a mode; `None` where it needs something else, or divides by what the system does not.

@@ -61,7 +61,7 @@ pub(super) fn solve_loads(model: &mut Model<'_>, faults: &mut Faults) -> Option<
     for force in &mut model.mechanics.forces {
         force.magnitude = loads.of(&mut model.bench.graph, force.magnitude);
     }
-    // Elsewhere they stay what is asked of the motion.
+    // In outputs they stay what is asked of the motion; rates of states depend on no force of a contact.
     let graph = &mut model.bench.graph;
     let asked = model.loads.iter().map(|load| {
         let value =
@@ -69,8 +69,7 @@ pub(super) fn solve_loads(model: &mut Model<'_>, faults: &mut Faults) -> Option<
         (load.symbol, value)
     });
     let mut asked = Substitution::new(asked.collect::<Vec<_>>());
-    let rates = model.mechanics.states.iter_mut().map(|state| &mut state.rate);
-    for e in rates.chain(&mut model.mechanics.outputs) {
+    for e in &mut model.mechanics.outputs {
         *e = asked.of(&mut model.bench.graph, *e);
     }
     Some(())

@@ -136,7 +136,7 @@ fn part(
     let loose = |contact: usize| {
         let entry = &contacts.entries[contact];
         let loading = entry.loaded_by.map_or(contact, |row| contacts.of_row(row));
-        slides(entry.states()[mode[contact]]) && undetermined[loading]
+        entry.states()[mode[contact]].slips() && undetermined[loading]
     };
     if let Some(contact) = (0..contacts.entries.len()).find(|contact| loose(*contact)) {
         let name = &contacts.entries[contact].name;
@@ -199,11 +199,11 @@ fn active(
     let mut rows = facts.rows.iter();
     for (contact, (entry, state)) in contacts.entries.iter().zip(mode).enumerate() {
         let state = entry.states()[*state];
-        let slides = slides(state);
+        let slips = state.slips();
         let closes = matches!(state, ContactState::Closed | ContactState::Stick | ContactState::Locked);
-        gaps.push(entry.gap.filter(|_| closes || slides));
+        gaps.push(entry.gap.filter(|_| closes || slips));
         let normal = usize::from(entry.gap.is_some());
-        let is_held = |place: usize| closes || (slides && place < normal);
+        let is_held = |place: usize| closes || (slips && place < normal);
         for (place, form) in rows.by_ref().take(entry.rows.len()).enumerate() {
             if !is_held(place) {
                 continue;
@@ -218,11 +218,6 @@ fn active(
         }
     }
     (active, gaps)
-}
-
-/// Whether a contact slips in a state.
-fn slides(state: ContactState) -> bool {
-    matches!(state, ContactState::Slip | ContactState::SlipPlus | ContactState::SlipMinus)
 }
 
 /// The gaps that are declared by their rates, by contact: points modulo a prime at which they and the others vanish would show rows as

@@ -85,6 +85,11 @@ impl ContactState {
         }
     }
 
+    /// Whether the contact slips.
+    pub fn slips(self) -> bool {
+        matches!(self, ContactState::Slip | ContactState::SlipPlus | ContactState::SlipMinus)
+    }
+
     /// The word with the sign of one direction, where there are two.
     pub fn signed_word(self) -> &'static str {
         match self {

@@ -348,7 +348,7 @@ fn drawn_contacts_slip_and_hold_in_one_mode() {
             let graph = &derived.model.bench.graph;
             let (_, own) = &derived.in_modes[0];
             let level = &own.scenes[0];
-            for _ in 0..3 {
+            for _ in 0..20 {
                 let at = |parameters: &[f64]| {
                     let value = |symbol: SymbolId| value(graph, symbol, &drawn.coordinates, parameters);
                     let list = evaluated(&derived.system, FREE_MOTION, value).expect("a program");

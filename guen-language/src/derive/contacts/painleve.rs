@@ -124,11 +124,7 @@ pub(super) fn prove(
         let mut loads = matrix.loads.chunks(1 + count);
         for (contact, entry) in contacts.entries.iter().enumerate() {
             let Some(load) = entry.load_reaction.and_then(|_| loads.next()) else { continue };
-            let slips = matches!(
-                states[contact],
-                ContactState::Slip | ContactState::SlipPlus | ContactState::SlipMinus
-            );
-            if !slips || bench.graph.is_zero(matrix.friction[contact]) {
+            if !states[contact].slips() || bench.graph.is_zero(matrix.friction[contact]) {
                 continue;
             }
             let moving = |row: &Row| {
