@@ -219,6 +219,15 @@ impl FaultReport {
         &self.faults
     }
 
+    /// Returns the faults at whose places another report has none.
+    pub(crate) fn beside(&self, told: &FaultReport) -> FaultReport {
+        let at = |fault: &Fault| format!("{:?}", fault.span);
+        let known: BTreeSet<String> = told.faults.iter().map(at).collect();
+        FaultReport {
+            faults: self.faults.iter().filter(|fault| !known.contains(&at(fault))).cloned().collect(),
+        }
+    }
+
     /// Returns the message and the place of each fault, as the compiler shows them; the last one ends with
     /// [`POINTER`].
     pub fn errors(&self) -> impl Iterator<Item = (Span, String)> {

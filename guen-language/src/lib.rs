@@ -55,9 +55,25 @@ pub fn expand(tokens: TokenStream) -> TokenStream {
     };
     let paths = components::imports(&declaration.items, &tokens, &report);
     if !paths.is_empty() {
-        return components::gather(declaration.crate_path.as_ref(), "mechanical_system_with", &paths, tokens);
+        let mut items = without_imports(&declaration, &report).to_compile_errors();
+        let back = "mechanical_system_with";
+        items.extend(components::gather(declaration.crate_path.as_ref(), back, &paths, tokens));
+        return items;
     }
-    finish(&tokens, declaration, report)
+    finish(&tokens, declaration, report, None)
+}
+
+/// Returns the faults that a declaration has whatever the components are that it imports: those of the grammar, and if there is none,
+/// names that nothing declares. They are told before the components are looked for: of one that is not found the compiler says no more.
+fn without_imports(
+    declaration: &syntax::Declaration,
+    report: &diagnostics::FaultReport,
+) -> diagnostics::FaultReport {
+    if !report.is_empty() {
+        return report.clone();
+    }
+    collect(|faults| unfold::unknown_names::report(unfold::unknown_names::unknown_names(declaration), faults))
+        .1
 }
 
 /// Expands one invocation of `mechanical_system!` to which the components that it uses have been added.
@@ -69,14 +85,13 @@ pub fn expand_with(tokens: TokenStream) -> TokenStream {
     };
     let paths = components::imports(&declaration.items, &tokens, &report);
     declaration.imported = components::imported(&paths, &bundles);
+    let told = without_imports(&declaration, &report);
     if declaration.imported.iter().any(|imported| imported.is_faulty) {
         // The faults are reported where the components are declared.
-        let mut items = report.to_compile_errors();
         let (declaration, _) = parse::unfolded(&tokens, declaration, report);
-        items.extend(expand_outline(&declaration));
-        return items;
+        return expand_outline(&declaration);
     }
-    finish(&tokens, declaration, report)
+    finish(&tokens, declaration, report, Some(&told))
 }
 
 /// Expands one invocation of `mechanical_component!`: the struct of its constants, and the macro that brings its tokens to the
@@ -150,11 +165,18 @@ fn finish(
     tokens: &TokenStream,
     declaration: syntax::Declaration,
     report: diagnostics::FaultReport,
+    told: Option<&diagnostics::FaultReport>,
 ) -> TokenStream {
+    let with_outline = |declaration: &syntax::Declaration, report: diagnostics::FaultReport| {
+        let further = told.map(|told| report.beside(told)).unwrap_or(report);
+        let mut items = further.to_compile_errors();
+        items.extend(expand_outline(declaration));
+        items
+    };
     let (declaration, report) = parse::unfolded(tokens, declaration, report);
     if !report.is_empty() {
         let report = with_further_faults(tokens, &declaration, report);
-        return with_outline(&declaration, &report);
+        return with_outline(&declaration, report);
     }
     let (derived, report) = collect(|faults| {
         let model = model::resolve(&declaration, faults)?;
@@ -162,7 +184,7 @@ fn finish(
     });
     match derived {
         Some(derived) if report.is_empty() => emit::emit(derived),
-        _ => with_outline(&declaration, &report),
+        _ => with_outline(&declaration, report),
     }
 }
 
@@ -198,12 +220,6 @@ fn report_of(input: ParseStream<'_>) -> syn::Result<Page> {
         sections.push((text(input)?, list(input)?, list(input)?));
     }
     Ok((summary, sections))
-}
-
-fn with_outline(declaration: &syntax::Declaration, report: &diagnostics::FaultReport) -> TokenStream {
-    let mut items = report.to_compile_errors();
-    items.extend(expand_outline(declaration));
-    items
 }
 
 /// Expands a faulty declaration to the items that it would have, with the signatures of the real ones; nothing if its name

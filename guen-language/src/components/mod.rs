@@ -29,9 +29,12 @@ pub(crate) fn expand(tokens: TokenStream) -> TokenStream {
     };
     let paths = imports_of(&component, &tokens, &report);
     if !paths.is_empty() {
-        return gather(component.crate_path.as_ref(), "mechanical_component_with", &paths, tokens);
+        // Of a component that is not found the compiler says no more.
+        let mut items = report.to_compile_errors();
+        items.extend(gather(component.crate_path.as_ref(), "mechanical_component_with", &paths, tokens));
+        return items;
     }
-    finish(tokens, component, Vec::new(), report)
+    finish(tokens, component, Vec::new(), report, None)
 }
 
 /// Expands a component to which those that it uses have been added.
@@ -40,7 +43,10 @@ pub(crate) fn expand_with(tokens: TokenStream) -> TokenStream {
     let (component, report) = parse::parse_component(tokens.clone());
     match component {
         None => report.to_compile_errors(),
-        Some(component) => finish(tokens, component, bundles, report),
+        Some(component) => {
+            let told = report.clone();
+            finish(tokens, component, bundles, report, Some(&told))
+        }
     }
 }
 
@@ -49,6 +55,7 @@ fn finish(
     mut component: Component,
     bundles: Vec<Group>,
     report: FaultReport,
+    told: Option<&FaultReport>,
 ) -> TokenStream {
     let paths = imports_of(&component, &tokens, &report);
     component.imported = imported(&paths, &bundles);
@@ -70,7 +77,7 @@ fn finish(
         faults.keep_since(before, |fault| !damaged.explains(fault));
         constants
     });
-    let mut items = further.to_compile_errors();
+    let mut items = told.map_or_else(|| further.clone(), |told| further.beside(told)).to_compile_errors();
     items.extend(carried::items(&component, tokens, &bundles, !further.is_empty()));
     let facade = component.crate_path.clone().unwrap_or_else(|| quote::quote!(::guen));
     items.extend(structure(&component, &constants, &facade));

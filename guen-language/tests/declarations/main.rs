@@ -13,6 +13,7 @@ mod families;
 mod functions;
 mod grammar_of_the_page;
 mod hints;
+mod imported;
 mod imports;
 mod large_costs;
 mod limbs;

@@ -22,7 +22,7 @@ mod mechanisms;
 #[allow(dead_code, reason = "systems drawn over expressions use the rest")]
 #[path = "../../../../guen-symbolic/tests/random_systems/multipliers.rs"]
 mod multipliers;
-mod printed;
+pub mod printed;
 #[allow(dead_code, reason = "systems drawn over expressions use the rest")]
 #[path = "../../../../guen-symbolic/tests/random_systems/scalar.rs"]
 mod scalar;

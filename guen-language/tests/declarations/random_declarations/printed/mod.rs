@@ -11,7 +11,7 @@ mod mathml;
 mod names;
 mod pages;
 mod report;
-mod systems;
+pub mod systems;
 mod term;
 mod text;
 

@@ -8,8 +8,24 @@ use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 
 use crate::random_declarations::scenes::Names;
 
-/// Every declaration once, with the file where it stands.
+/// Every declaration once, with the file where it stands, but for those with components that are imported: they are not known here.
 pub fn all() -> Vec<(String, PathBuf)> {
+    found().into_iter().filter(|(text, _)| !imports(text)).collect()
+}
+
+/// Every declaration with components that are imported.
+pub fn with_imports() -> Vec<(String, PathBuf)> {
+    found().into_iter().filter(|(text, _)| imports(text)).collect()
+}
+
+/// Whether a declaration uses a component that it does not declare.
+fn imports(text: &str) -> bool {
+    let name = |text: &str| text.split_whitespace().next().unwrap_or_default().to_owned();
+    let declared: Vec<String> = text.split(" component ").skip(1).map(name).collect();
+    text.split(" use ").skip(1).any(|used| !declared.contains(&name(used)))
+}
+
+fn found() -> Vec<(String, PathBuf)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut files = Vec::new();
     for entry in std::fs::read_dir(&root).expect("the root of the repository") {
@@ -30,11 +46,7 @@ pub fn all() -> Vec<(String, PathBuf)> {
         for tokens in blocks.iter().filter_map(|block| block.parse::<TokenStream>().ok()) {
             declarations(tokens, &mut |declaration| {
                 let text = declaration.to_string();
-                // Components that are imported are not known here.
-                let name = |text: &str| text.split_whitespace().next().unwrap_or_default().to_owned();
-                let declared: Vec<String> = text.split(" component ").skip(1).map(name).collect();
-                let imports = text.split(" use ").skip(1).any(|used| !declared.contains(&name(used)));
-                if !imports && seen.insert(text.clone()) {
+                if seen.insert(text.clone()) {
                     found.push((text, file.clone()));
                 }
             });

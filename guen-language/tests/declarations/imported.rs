@@ -1,0 +1,48 @@
+//! Faults beside components that are imported, which are told before the compiler looks for these.
+
+use guen_language::{expand, expand_component};
+
+use crate::random_declarations::printed::systems;
+
+const CART: &str = "system Cart {
+    constants { m > 0 }
+    coordinates { x }
+    use parts::Wheel as wheel { hub: x }
+    kinetic_energy = m/2*dot(x)^2 + wheel.energy;
+    forces { -dot(wheel.angle) along dot(x); }
+}";
+
+/// The errors of the first expansion, which ends with a call of the component.
+fn errors(text: &str) -> Vec<String> {
+    let items = expand(text.parse().expect("tokens")).to_string();
+    assert!(items.contains("parts :: Wheel ! {"), "{items}");
+    let message = |rest: &str| rest.split(['"', '\\']).nth(1).map(str::to_owned);
+    items.split("compile_error").skip(1).filter_map(message).collect()
+}
+
+#[test]
+fn faults_of_the_grammar_and_unknown_names_do_not_wait_for_components() {
+    assert_eq!(errors(CART), [""; 0]);
+    assert_eq!(errors(&CART.replace("m/2", "M/2")), ["unknown name `M` in system `Cart`"]);
+    let damaged = CART.replace("m > 0", "m >> 0").replace("-dot(wheel", "-dott(wheel");
+    assert_eq!(errors(&damaged).len(), 1, "{:?}", errors(&damaged));
+    let twice = CART.replace("m > 0", "m >> 0").replace("along", "allong");
+    assert_eq!(errors(&twice).len(), 2, "{:?}", errors(&twice));
+    let component =
+        "pub component Axle(hub: scalar) { constants { m >> 0 } use parts::Wheel as wheel { hub: hub } }";
+    let items = expand_component(component.parse().expect("tokens")).to_string();
+    assert!(items.contains("parts :: Wheel ! {") && items.matches("compile_error").count() == 1, "{items}");
+}
+
+#[test]
+fn sound_systems_with_imports_have_no_error_before_them() {
+    let systems = systems::with_imports();
+    let sound = systems.iter().filter(|(_, file)| !systems::may_be_wrong(file));
+    let mut count = 0;
+    for (text, file) in sound {
+        let items = expand(text.parse().expect("tokens")).to_string();
+        assert!(!items.contains("compile_error"), "{}: {text}\n{items}", file.display());
+        count += 1;
+    }
+    assert!(count >= 25, "{count}");
+}
