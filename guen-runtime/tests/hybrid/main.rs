@@ -6,8 +6,6 @@ mod json;
 mod methods;
 #[cfg(feature = "alloc")]
 mod polygons;
-#[cfg(feature = "alloc")]
-mod random;
 mod reference;
 #[cfg(feature = "alloc")]
 mod saltation;

@@ -2,7 +2,7 @@
 
 use guen_runtime::hybrid::{ElementState, HybridSystem, TransitionKind};
 
-use crate::random::tree::{Drawn, Four, Row, Stops};
+use crate::tree::{Drawn, Four, Row, Stops};
 
 /// Links of which two stops hit in turns, each flight a third of the one before: no flight is lost below the digits of the gaps.
 #[test]

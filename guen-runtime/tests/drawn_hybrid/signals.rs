@@ -7,9 +7,9 @@ use guen_runtime::hybrid::{
     TransitionKind,
 };
 
-use crate::random::laws::Judged;
-use crate::random::tree::{Mixed, Random};
-use crate::random::{is_expected, mixed, rounds};
+use crate::laws::Judged;
+use crate::tree::{Mixed, Random};
+use crate::{is_expected, mixed, rounds};
 
 /// A drawn system with a constant force along its second angle.
 #[derive(Clone, Copy, Debug)]

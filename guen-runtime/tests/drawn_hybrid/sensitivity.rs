@@ -6,8 +6,8 @@ use guen_runtime::System;
 use guen_runtime::hybrid::{HybridSystem, Mode, NoSaltation, SensitivityError, TransitionKind};
 use guen_runtime::steppers::Dop853;
 
-use crate::random::tree::Random;
-use crate::random::{feet, four, mixed, rounds, spatial, stops};
+use crate::tree::Random;
+use crate::{feet, four, mixed, rounds, spatial, stops};
 
 /// What was compared, and what not.
 #[derive(Debug, Default)]

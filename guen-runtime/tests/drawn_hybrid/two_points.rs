@@ -2,9 +2,9 @@
 
 use guen_runtime::hybrid::{HybridCause, HybridSystem, TransitionKind};
 
-use crate::random::laws::Judged;
-use crate::random::tree::{Random, Row, TwoPoints};
-use crate::random::{rounds, start, tree};
+use crate::laws::Judged;
+use crate::tree::{Random, Row, TwoPoints};
+use crate::{rounds, start, tree};
 
 /// A system and a start, with both contacts touching at first or above the ground.
 fn drawn(random: &mut Random, touching: bool) -> (TwoPoints, [f64; 12]) {

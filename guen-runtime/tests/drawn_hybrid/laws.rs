@@ -5,8 +5,8 @@ use guen_runtime::hybrid::{
 };
 use nalgebra::{DMatrix, DVector};
 
-use crate::random::held;
-use crate::random::lcp::{Part, Tangent, forces};
+use crate::held;
+use crate::lcp::{Part, Tangent, forces};
 
 /// What was judged.
 #[derive(Clone, Copy, Debug, Default)]

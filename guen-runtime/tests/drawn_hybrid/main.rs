@@ -2,6 +2,11 @@
 //!
 //! `GUEN_ROUNDS` says how many systems of each family, of which the tests' run takes a few; `GUEN_SEED` and `GUEN_FIRST` say where to begin.
 
+#![cfg(feature = "alloc")]
+
+#[expect(dead_code, reason = "systems without links have masses by themselves")]
+#[path = "../hybrid/bodies.rs"]
+mod bodies;
 mod held;
 mod laws;
 mod lcp;
@@ -14,8 +19,8 @@ mod two_points;
 use guen_runtime::hybrid::{ElementState, HybridCause, HybridSystem, InMode, Mode, TransitionKind};
 use nalgebra::{DMatrix, DVector};
 
-use self::laws::Judged;
-use self::tree::{Drawn, Feet, Four, Mixed, Random, Row, Spatial, Stops};
+use crate::laws::Judged;
+use crate::tree::{Drawn, Feet, Four, Mixed, Random, Row, Spatial, Stops};
 
 /// The number of systems of each family that is asked for.
 fn asked_rounds() -> Option<usize> {
