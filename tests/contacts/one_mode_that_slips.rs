@@ -75,8 +75,8 @@ mechanical_system! {
             wall: gap = x - p/5;
             clutch: grip = dot(p) - dot(q), limit = limit*(1 + q^2);
             pads: grip = dot(q), friction = nu/(1 + speed), load = 3 + p^2;
-            brake: grip = dot(p), friction = mu, load = reaction(wall);
             rail: grip = dot(p) + dot(q)/4, friction = nu/2, load = reaction(guide);
+            brake: grip = dot(p), friction = mu, load = reaction(wall);
         }
         modes { wall: open, closed; clutch: stick, slip+; pads: slip; brake: slip; rail: slip; }
         outputs { press = reaction(wall); rubs = reaction(brake); slides = reaction(rail); clutches = reaction(clutch); }

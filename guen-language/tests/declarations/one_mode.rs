@@ -229,6 +229,24 @@ fn rows_that_depend_on_each_other_are_named() {
     });
 }
 
+#[test]
+fn a_report_has_the_direction_of_a_slip() {
+    let text = "system Block {
+        constants { m > 0, mu >= 0, g = 9.81 }
+        coordinates { x, z }
+        parameters { u = dot(x); w = dot(z); }
+        kinetic_energy = m/2*(u^2 + w^2);
+        potential_energy = m*g*z;
+        contacts { floor: gap = z, slip = u, friction = mu; }
+        scene Back { modes { floor: slip-; } }
+    }";
+    derived(text, |derived| {
+        let (_, own) = &derived.in_modes[0];
+        let report = Report::of_part(&own.model, &own.scenes[0], &derived.model).to_text();
+        assert!(report.contains("floor slip-"), "{report}");
+    });
+}
+
 /// Contacts of instances and of arrays, by their names.
 #[test]
 fn contacts_of_instances_stay_in_a_mode() {
