@@ -10,12 +10,13 @@ guen::mechanical_system! {
         gravity = vec(0, -g);
         parameters { u = dot(x); w = dot(z); omega = dot(tilt); }
         contacts {
+            lid: gap = 9 - z;
             left: gap = z - h - b*sin(tilt);
             middle: gap = z - h;
             right: gap = z - h + b*sin(tilt);
-            brake: grip = u, friction = 1/2, load = reaction(right);
+            brake: grip = u, friction = 1/2, load = reaction(left);
         }
-        scene Braking { modes { left: closed; middle: closed; right: closed; brake: slip+; } }
+        scene Braking { modes { lid: open; left: closed; middle: closed; right: closed; brake: slip+; } }
     }
 }
 
