@@ -65,7 +65,7 @@ pub(crate) struct Damaged {
     has_lost_instance: bool,
     /// Whether a count is damaged, so that entries of arrays may be missing.
     has_lost_count: bool,
-    /// The names of components whose heads are damaged.
+    /// The names of components with a fault. One in the head leaves nothing that declares the component.
     lost_components: BTreeSet<String>,
     /// Whether a component has lost its name, so that any unknown one may be this component.
     has_unnamed_component: bool,

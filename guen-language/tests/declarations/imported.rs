@@ -1,6 +1,6 @@
 //! Faults beside components that are imported, which are told before the compiler looks for these.
 
-use guen_language::{expand, expand_component};
+use guen_language::{expand, expand_component, expand_with};
 
 use crate::random_declarations::printed::systems;
 
@@ -12,10 +12,27 @@ const CART: &str = "system Cart {
     forces { -dot(wheel.angle) along dot(x); }
 }";
 
+/// The component, as its macro adds it to the system.
+const WHEEL: &str = "{ { pub component Wheel(hub: scalar) {
+    constants { inertia > 0 }
+    coordinates { angle }
+    let energy = inertia/2*dot(angle)^2;
+    constraints { rolls: dot(hub) = dot(angle); }
+} } }";
+
 /// The errors of the first expansion, which ends with a call of the component.
 fn errors(text: &str) -> Vec<String> {
     let items = expand(text.parse().expect("tokens")).to_string();
     assert!(items.contains("parts :: Wheel ! {"), "{items}");
+    messages(&items)
+}
+
+/// The errors of the second expansion, with the component.
+fn further_errors(text: &str) -> Vec<String> {
+    messages(&expand_with(format!("{{ {text} }} {WHEEL}").parse().expect("tokens")).to_string())
+}
+
+fn messages(items: &str) -> Vec<String> {
     let message = |rest: &str| rest.split(['"', '\\']).nth(1).map(str::to_owned);
     items.split("compile_error").skip(1).filter_map(message).collect()
 }
@@ -32,6 +49,18 @@ fn faults_of_the_grammar_and_unknown_names_do_not_wait_for_components() {
         "pub component Axle(hub: scalar) { constants { m >> 0 } use parts::Wheel as wheel { hub: hub } }";
     let items = expand_component(component.parse().expect("tokens")).to_string();
     assert!(items.contains("parts :: Wheel ! {") && items.matches("compile_error").count() == 1, "{items}");
+}
+
+#[test]
+fn what_is_told_before_components_are_found_is_not_told_again() {
+    assert_eq!(further_errors(CART), [""; 0]);
+    let unknown = CART.replace("m/2", "M/2");
+    assert_eq!((errors(&unknown).len(), further_errors(&unknown)), (1, Vec::new()));
+    let damaged = CART.replace("m > 0", "m >> 0");
+    assert_eq!((errors(&damaged).len(), further_errors(&damaged)), (1, Vec::new()));
+    let both = unknown.replace("wheel.angle", "wheel.angel");
+    assert_eq!(errors(&both).len(), 1);
+    assert_eq!(further_errors(&both), ["`wheel`, a `Wheel`, has no `angel`"]);
 }
 
 #[test]
