@@ -1,6 +1,6 @@
 //! Faults beside components that are imported, which are told before the compiler looks for these.
 
-use guen_language::{expand, expand_component, expand_with};
+use guen_language::{expand, expand_component, expand_component_with, expand_with};
 
 use crate::random_declarations::printed::systems;
 
@@ -10,6 +10,12 @@ const CART: &str = "system Cart {
     use parts::Wheel as wheel { hub: x }
     kinetic_energy = m/2*dot(x)^2 + wheel.energy;
     forces { -dot(wheel.angle) along dot(x); }
+}";
+
+/// A component with a fault that imports another.
+const AXLE: &str = "pub component Axle(hub: scalar) {
+    constants { m >> 0 }
+    use parts::Wheel as wheel { hub: hub }
 }";
 
 /// The component, as its macro adds it to the system.
@@ -61,6 +67,27 @@ fn what_is_told_before_components_are_found_is_not_told_again() {
     let both = unknown.replace("wheel.angle", "wheel.angel");
     assert_eq!(errors(&both).len(), 1);
     assert_eq!(further_errors(&both), ["`wheel`, a `Wheel`, has no `angel`"]);
+    let axle = format!("{{ {AXLE} }} {WHEEL}");
+    assert_eq!(messages(&expand_component_with(axle.parse().expect("tokens")).to_string()), [""; 0]);
+}
+
+/// Nothing declares a component with a fault in its head, and yet it is no macro.
+#[test]
+fn damaged_components_are_not_looked_for() {
+    for head in ["Wheel hub", "Wheel(hub scalar)", "Wheel<T>(hub: scalar)", "(hub: scalar)"] {
+        let text = format!(
+            "system Cart {{
+                component {head} {{ coordinates {{ angle }} kinetic_energy = dot(angle)^2; }}
+                coordinates {{ x }}
+                use Wheel as wheel {{ hub: x }}
+                kinetic_energy = dot(x)^2;
+                forces {{ wheel.angle along dot(x); }}
+            }}"
+        );
+        let items = expand(text.parse().expect("tokens")).to_string();
+        assert!(!items.contains("Wheel !"), "{head}: {items}");
+        assert_eq!(messages(&items).len(), 1, "{head}: {items}");
+    }
 }
 
 #[test]
