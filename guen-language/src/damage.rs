@@ -65,7 +65,7 @@ pub(crate) struct Damaged {
     has_lost_instance: bool,
     /// Whether a count is damaged, so that entries of arrays may be missing.
     has_lost_count: bool,
-    /// The names of components with a fault. One in the head leaves nothing that declares the component.
+    /// The names of components that have a fault. If it is in the head, the component is missing from the items.
     lost_components: BTreeSet<String>,
     /// Whether a component has lost its name, so that any unknown one may be this component.
     has_unnamed_component: bool,
@@ -275,7 +275,7 @@ impl Damaged {
         }
     }
 
-    /// Whether a component that nothing declares may be one that is damaged here, and no macro of that name exists.
+    /// Whether a component that the items lack may be one that is declared here with a fault. Then it is no macro.
     pub(crate) fn may_declare(&self, path: &ComponentPath) -> bool {
         path.is_name() && (self.has_unnamed_component || self.lost_components.contains(&path.text))
     }

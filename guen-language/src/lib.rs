@@ -63,8 +63,8 @@ pub fn expand(tokens: TokenStream) -> TokenStream {
     finish(&tokens, declaration, report, None)
 }
 
-/// Returns the faults that a declaration has whatever the components are that it imports: those of the grammar, and if there is none,
-/// names that nothing declares. They are told before the components are looked for: of one that is not found the compiler says no more.
+/// Returns the faults that do not depend on imported components: those of the grammar or, if there are none, names that nothing declares.
+/// They are told before the components are looked for, because the compiler stops at a component that it does not find.
 fn without_imports(
     declaration: &syntax::Declaration,
     report: &diagnostics::FaultReport,

@@ -29,7 +29,7 @@ pub(crate) fn expand(tokens: TokenStream) -> TokenStream {
     };
     let paths = imports_of(&component, &tokens, &report);
     if !paths.is_empty() {
-        // Of a component that is not found the compiler says no more.
+        // Told now, because the compiler stops at a component that it does not find.
         let mut items = report.to_compile_errors();
         items.extend(gather(component.crate_path.as_ref(), "mechanical_component_with", &paths, tokens));
         return items;
