@@ -20,6 +20,8 @@ pub struct Declared<'a> {
     coordinates: Vec<String>,
     pub held: Vec<String>,
     forms: Vec<String>,
+    /// A generalised force beside those that are declared, one component for each coordinate.
+    pub pushed: Vec<f64>,
 }
 
 impl<'a> Declared<'a> {
@@ -41,6 +43,7 @@ impl<'a> Declared<'a> {
             coordinates,
             held,
             forms,
+            pushed: vec![0.0; n],
         }
     }
 
@@ -146,9 +149,9 @@ impl<'a> Declared<'a> {
     pub fn generalised_forces(&self, point: &[f64]) -> Vec<f64> {
         let along = |v: &usize| {
             let works = self.meaning(&lift(point, |k| if k == *v { 1.0 } else { 0.0 })).works;
-            works.iter().map(|(force, form)| force.re * form.du).sum()
+            works.iter().map(|(force, form)| force.re * form.du).sum::<f64>()
         };
-        self.velocities.iter().map(along).collect()
+        self.velocities.iter().zip(&self.pushed).map(|(v, pushed)| along(v) + pushed).collect()
     }
 
     /// The rates of a point along the motion at `x'' = 0`.

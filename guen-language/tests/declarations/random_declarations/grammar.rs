@@ -1,6 +1,8 @@
 //! Declarations drawn at random: bodies and particles on joints of every kind, on each other and on moving bases, forces,
 //! constraints of both kinds, parameters.
 
+mod contacts;
+
 use super::draw::Draw;
 use super::functions::function;
 
@@ -23,6 +25,12 @@ struct Text {
     particles: String,
     forces: String,
     outputs: String,
+    /// Bodies, each with a point that it carries.
+    rigid: Vec<(String, String)>,
+    /// The parameters that are scalars and named.
+    named: Vec<String>,
+    /// The states beside the motion.
+    states: Vec<String>,
 }
 
 const NUMBERS: [&str; 8] = ["1", "2", "1/2", "3/10", "0.7", "1.5", "2/3", "5/4"];
@@ -202,6 +210,7 @@ impl Text {
         self.bodies += &format!(
             "{name} {{ mass: {mass}, inertia: {inertia}, center: {center}, orientation: {rotation} }}\n"
         );
+        self.rigid.push((name.to_owned(), origin.to_owned()));
         if draw.once_in(3) {
             // A body need not turn, and a force along nothing is an error.
             let (drag, first) = (self.constant(), self.coordinates[0].clone());
@@ -264,6 +273,7 @@ impl Text {
             }
             rates += &format!("dot({name}) = {rate}; ");
         }
+        self.states.clone_from(&names);
         let (last, q) = (names[names.len() - 1].clone(), self.coordinates[0].clone());
         self.lets += &format!("let lag = {} + {last}/7;\n", draw.pick(&NUMBERS));
         if draw.once_in(3) {
@@ -310,21 +320,35 @@ impl Text {
         // Some are left out, and the macro chooses what completes the others.
         if !self.made.is_multiple_of(3) {
             self.parameters += &parameter;
+            self.named.push(name);
         }
     }
 }
 
 /// A declaration; the same for the same seed.
 pub fn drawn(seed: u64) -> String {
-    written(seed, false)
+    written(seed, Parts::Motion)
 }
 
 /// The declaration of a seed, every third one with functions that the program supplies.
 pub fn with_functions(seed: u64) -> String {
-    written(seed, true)
+    written(seed, Parts::Functions)
 }
 
-fn written(seed: u64, has_functions: bool) -> String {
+/// The declaration of a seed with a switch, contacts and resets.
+pub fn with_contacts(seed: u64) -> String {
+    written(seed, Parts::Contacts)
+}
+
+/// What a declaration has beside its motion.
+#[derive(PartialEq)]
+enum Parts {
+    Motion,
+    Functions,
+    Contacts,
+}
+
+fn written(seed: u64, parts: Parts) -> String {
     let mut draw = Draw::new(seed);
     let draw = &mut draw;
     let mut text = Text::default();
@@ -382,8 +406,15 @@ fn written(seed: u64, has_functions: bool) -> String {
     let states = text.states(&mut Draw::new(seed.rotate_left(23)));
     let landscape = text.function(draw, 2);
     let mut apart = Draw::new(seed.rotate_left(41));
-    let (supplied, further) =
-        if has_functions && apart.once_in(3) { text.supplied(&mut apart) } else { Default::default() };
+    let (supplied, further) = if parts == Parts::Functions && apart.once_in(3) {
+        text.supplied(&mut apart)
+    } else {
+        Default::default()
+    };
+    let [switches, contacts, resets] = match parts {
+        Parts::Contacts => text.contacts(&mut Draw::new(seed.rotate_left(51))),
+        _ => Default::default(),
+    };
     // Every coordinate has some inertia.
     let sluggish: Vec<String> = text.coordinates.iter().map(|q| format!("dot({q})^2/20")).collect();
     // The momentum of a constraint.
@@ -392,6 +423,7 @@ fn written(seed: u64, has_functions: bool) -> String {
         None => String::new(),
     };
     let spring = &text.coordinates[draw.below(text.coordinates.len())];
+    let bouncing = if contacts.is_empty() { "" } else { ", e in 0..1" };
     let section = |word: &str, entries: &str| {
         if entries.is_empty() { String::new() } else { format!("{word} {{ {entries} }}\n") }
     };
@@ -406,11 +438,14 @@ fn written(seed: u64, has_functions: bool) -> String {
         section("constraints", &(text.constraints + &text.after)),
         section("states", &states),
         section("particles", &text.particles),
+        section("switches", &switches),
+        section("contacts", &contacts),
+        section("resets", &resets),
         section("forces", &text.forces),
         section("outputs", &text.outputs),
     ];
     format!(
-        "system Drawn{seed} {{\nconstants {{ {} }}\n{}kinetic_energy = {};\npotential_energy = 3/4*{spring}^2 + {landscape}{further};\n\
+        "system Drawn{seed} {{\nconstants {{ {}{bouncing} }}\n{}kinetic_energy = {};\npotential_energy = 3/4*{spring}^2 + {landscape}{further};\n\
          gravity = vec(0, 1/5, -g);\n}}",
         [&text.constants[..], &["g = 9.81".to_owned()]].concat().join(", "),
         sections.concat(),

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use guen_language::syntax::{
-    AddOperator, Declaration, Equation, Expression, ExpressionKind, FunctionDefinition, Inertia, Item,
-    MultiplyOperator, Order,
+    AddOperator, ClauseWord, Contact, Declaration, Equation, Expression, ExpressionKind, FunctionDefinition,
+    Inertia, Item, MultiplyOperator, Order,
 };
 
 use super::analytic::Analytic;
@@ -31,6 +31,24 @@ pub struct Meaning<R> {
     pub outputs: Vec<R>,
     /// The rates of the states beside the motion.
     pub state_rates: Vec<R>,
+    /// The functions of the switches.
+    pub switches: Vec<R>,
+    pub contacts: Vec<Touch<R>>,
+    /// The function of each reset, with its new values.
+    pub resets: Vec<(R, Vec<R>)>,
+}
+
+/// A contact, grip or latch; zero, or one for the condition of closing, for what is not written.
+pub struct Touch<R> {
+    pub gap: R,
+    /// The velocities that vanish where it holds.
+    pub rows: Vec<R>,
+    pub friction: R,
+    pub stiction: R,
+    pub restitution: R,
+    pub limit: R,
+    pub when: R,
+    pub release: R,
 }
 
 /// Why there is no number.
@@ -61,6 +79,9 @@ impl<R: Analytic> Meaning<R> {
             works: Vec::new(),
             outputs: Vec::new(),
             state_rates: Vec::new(),
+            switches: Vec::new(),
+            contacts: Vec::new(),
+            resets: Vec::new(),
         };
         let gravity = meaning.gravity(declaration)?;
         for item in &declaration.items {
@@ -180,11 +201,84 @@ impl<R: Analytic> Meaning<R> {
             // Numbers for constants and inputs are given; gravity is known.
             Item::Constants(_) | Item::Inputs(_) | Item::Coordinates(_) | Item::Gravity(_) => {}
             Item::Provide(_) | Item::Scene(_) => {}
-            // No motion without contact depends on them, and the grammar has none.
-            Item::Switches(_) | Item::Contacts(_) | Item::Resets(_) | Item::Modes(_) => {}
+            Item::Switches(section) => {
+                for switch in &section.entries {
+                    let function = self.scalar(&switch.value)?.re;
+                    let is_on = if function.value() > 0.0 { 1.0 } else { 0.0 };
+                    self.names.insert(switch.name.text.clone(), number(is_on));
+                    self.switches.push(function);
+                }
+            }
+            Item::Contacts(section) => {
+                for contact in &section.entries {
+                    let touch = self.touch(contact)?;
+                    self.contacts.push(touch);
+                }
+            }
+            Item::Resets(section) => {
+                for reset in &section.entries {
+                    let function = self.scalar(&reset.function)?.re;
+                    let values = reset.assignments.iter().map(|given| Ok(self.scalar(&given.value)?.re));
+                    let values = values.collect::<Result<Vec<R>, Missing>>()?;
+                    self.resets.push((function, values));
+                }
+            }
+            Item::Modes(_) => {}
             Item::Component(_) | Item::Use(_) | Item::Argument(_) => unreachable!("unfolded"),
         }
         Ok(())
+    }
+
+    fn touch(&mut self, contact: &Contact) -> Result<Touch<R>, Missing> {
+        let clause = |word: ClauseWord| contact.clause(word).map(|clause| &clause.value);
+        let or = |word: ClauseWord, inside: &Self, missing: f64| match clause(word) {
+            Some(e) => inside.scalar(e).map(|value| value.re),
+            None => Ok(R::constant(missing)),
+        };
+        let name = &contact.name.text;
+        let (mut gap, mut rows) = (R::constant(0.0), Vec::new());
+        if let Some(e) = clause(ClauseWord::Gap).or(clause(ClauseWord::Latch)) {
+            let value = self.scalar(e)?;
+            gap = value.re.clone();
+            rows.push(velocity(value.du.clone()).re);
+            self.names.insert(format!("gap({name})"), Value::Scalar(value));
+        }
+        let mut slips = Vec::new();
+        if let Some(e) = clause(ClauseWord::Slip).or(clause(ClauseWord::Grip)) {
+            let value = self.value(e)?;
+            slips = components(&value)?.into_iter().map(|e| e.re).collect();
+            // The plane of the slip is that of the first two axes.
+            slips.truncate(2);
+            self.names.insert(format!("slip({name})"), value);
+        }
+        let square = slips.iter().fold(R::constant(0.0), |sum, slip| sum.plus(&slip.times(slip)));
+        let speed = if slips.is_empty() { Some(square) } else { square.function("sqrt") };
+        rows.extend(slips);
+        let mut sliding = self.beside();
+        sliding.names.insert("speed".to_owned(), Value::Scalar(velocity(speed.ok_or("a speed")?)));
+        let mut resting = self.beside();
+        resting.names.insert("speed".to_owned(), number(0.0));
+        let mut friction = or(ClauseWord::Friction, &sliding, 0.0)?;
+        let mut stiction = match clause(ClauseWord::Stiction) {
+            Some(_) => or(ClauseWord::Stiction, self, 0.0)?,
+            None => or(ClauseWord::Friction, &resting, 0.0)?,
+        };
+        let mut limit = or(ClauseWord::Limit, self, 0.0)?;
+        // The coefficient and the load of a grip are its limit.
+        if let Some(load) = clause(ClauseWord::Load) {
+            limit = friction.times(&self.scalar(load)?.re);
+            (friction, stiction) = (R::constant(0.0), R::constant(0.0));
+        }
+        Ok(Touch {
+            gap,
+            rows,
+            friction,
+            stiction,
+            restitution: or(ClauseWord::Restitution, self, 0.0)?,
+            limit,
+            when: or(ClauseWord::When, self, 1.0)?,
+            release: or(ClauseWord::Release, self, -1.0)?,
+        })
     }
 
     fn form(&mut self, name: &str, value: Value<R>) -> Result<(), Missing> {
@@ -322,6 +416,12 @@ impl<R: Analytic> Meaning<R> {
                 };
                 self.value(&arguments[if holds { 1 } else { 2 }])
             }
+            ExpressionKind::Call { function, arguments, .. }
+                if ["gap", "slip"].contains(&function.text.as_str()) =>
+            {
+                let name = format!("{}({})", function.text, arguments[0]);
+                self.names.get(&name).cloned().ok_or(name)
+            }
             ExpressionKind::Call { function, arguments, .. } => {
                 let all: Result<Vec<Value<R>>, Missing> = arguments.iter().map(|e| self.value(e)).collect();
                 if let Some(place) = self.supplied.get(&function.text) {
@@ -337,11 +437,16 @@ impl<R: Analytic> Meaning<R> {
 
     /// The expression of a function where its arguments have these values.
     fn called(&self, function: &FunctionDefinition, values: Vec<Value<R>>) -> Result<Value<R>, Missing> {
-        let mut names = self.names.clone();
-        names.extend(function.parameters.iter().map(|parameter| parameter.text.clone()).zip(values));
+        let mut inside = self.beside();
+        inside.names.extend(function.parameters.iter().map(|parameter| parameter.text.clone()).zip(values));
+        inside.value(&function.value)
+    }
+
+    /// Names and functions alone, to which more can be added.
+    fn beside(&self) -> Self {
         let nothing = R::constant(0.0);
-        let inside = Meaning {
-            names,
+        Meaning {
+            names: self.names.clone(),
             functions: self.functions.clone(),
             supplied: self.supplied.clone(),
             forms: BTreeMap::new(),
@@ -351,8 +456,10 @@ impl<R: Analytic> Meaning<R> {
             works: Vec::new(),
             outputs: Vec::new(),
             state_rates: Vec::new(),
-        };
-        inside.value(&function.value)
+            switches: Vec::new(),
+            contacts: Vec::new(),
+            resets: Vec::new(),
+        }
     }
 
     /// From the right, so that `a*R*v` is `a*(R*v)`; a quotient is a product with the reciprocal.

@@ -8,6 +8,7 @@ mod analytic;
 mod bodies;
 mod compiled;
 mod components;
+mod contacts;
 mod declared;
 #[allow(dead_code, reason = "systems drawn over expressions use the rest")]
 #[path = "../../../../guen-symbolic/tests/random_systems/draw.rs"]
@@ -34,7 +35,7 @@ use guen_language::model::{self, Model};
 use guen_symbolic::{ExprId, SymbolId};
 
 use crate::common::{by_two_threads, derived, evaluated, rounds};
-use declared::Declared;
+use declared::{Declared, lift};
 use draw::Draw;
 
 /// Largest difference, in units of condition times scale.
