@@ -33,6 +33,11 @@ pub const LARGEST_CONDITION: f64 = 1e8;
 
 /// Solves for the motion at a state; `None` if the system is worse conditioned than [`LARGEST_CONDITION`].
 pub fn solve(system: &Declared, point: &[f64]) -> Option<Multipliers> {
+    pushed(system, point, &vec![0.0; system.n])
+}
+
+/// The same with a generalised force beside those that are declared, one component for each coordinate.
+pub fn pushed(system: &Declared, point: &[f64], force: &[f64]) -> Option<Multipliers> {
     let (n, l) = (system.n, system.degrees);
     let m = n - l;
     let rates = system.rates(point, &[]);
@@ -54,7 +59,7 @@ pub fn solve(system: &Declared, point: &[f64]) -> Option<Multipliers> {
         }
         let position = lift(point, |k| if k == system.x[i] { 1.0 } else { 0.0 });
         let slope = system.potential(&position).du + system.kinetic(position).du;
-        right[i] = slope + q[i] - drift;
+        right[i] = slope + q[i] + force[i] - drift;
     }
     let forms = system.forms_at(&lift(point, |k| rates[k]));
     for (j, row) in forms.iter().enumerate() {

@@ -1,12 +1,14 @@
 //! Drawn declarations with switches, contacts and resets: the programs that runs through modes are made of, against their meaning.
 
-use guen_language::derive::{Derived, function};
+use guen_language::derive::{Derived, Level, function};
 use guen_symbolic::SymbolId;
 
+use super::declared::{Declared, lift};
 use super::draw::Draw;
 use super::meaning::{Meaning, Touch};
+use super::multipliers::{self, Multipliers};
 use super::scalar::Dual;
-use super::{LARGEST, Numbers, ROUNDING, STATES, grammar, lift, multipliers, numbers};
+use super::{LARGEST, Numbers, ROUNDING, STATES, grammar, numbers, scenes};
 use crate::common::{by_two_threads, derived, evaluated, rounds};
 
 /// What was looked at.
@@ -23,77 +25,98 @@ fn rows<R>(meaning: Meaning<R>) -> Vec<R> {
     meaning.contacts.into_iter().flat_map(|touch| touch.rows).collect()
 }
 
-/// Free motion, rows and what forces along them do, by the equations with multipliers, in the order of the program; with the unit of
-/// rounding.
-fn free_motion(declared: &mut super::Declared<'_>, point: &[f64]) -> Option<(Vec<f64>, f64)> {
-    let free = multipliers::solve(declared, point)?;
-    let unit = free.condition * free.scale;
-    if unit > LARGEST {
-        return None;
-    }
-    let meaning = declared.meaning(point);
-    let velocities: Vec<f64> = declared.velocities.iter().map(|v| point[*v]).collect();
-    let rates = velocities.iter().chain(&free.accelerations).chain(&meaning.state_rates);
-    let mut list: Vec<f64> = rates.copied().collect();
-    list.extend(meaning.contacts.iter().map(|touch| touch.gap));
-    list.extend(meaning.contacts.iter().flat_map(|touch| &touch.rows));
-    // The rates of rows along the motion: time, positions and velocities move, constants, inputs and states do not occur in them.
-    let n = declared.n;
-    let along = |k: usize| match k {
-        0 => 1.0,
-        k if k <= n => velocities[k - 1],
-        k if k <= 2 * n => free.second[k - n - 1],
-        _ => 0.0,
-    };
-    let moving: Vec<Dual<f64>> = rows(declared.meaning(&lift(point, along)));
-    list.extend(moving.iter().map(|row| row.du));
-    // By row, its derivatives by the velocities.
-    let columns: Vec<Vec<Dual<f64>>> = declared
-        .velocities
-        .iter()
-        .map(|v| rows(declared.meaning(&lift(point, |k| if k == *v { 1.0 } else { 0.0 }))))
-        .collect();
-    let covectors: Vec<Vec<f64>> =
-        (0..moving.len()).map(|row| columns.iter().map(|column| column[row].du).collect()).collect();
-    let mut responses = Vec::new();
-    for covector in &covectors {
-        declared.pushed.clone_from(covector);
-        responses.push(multipliers::solve(declared, point));
-        declared.pushed.fill(0.0);
-    }
-    let responses: Vec<multipliers::Multipliers> = responses.into_iter().collect::<Option<_>>()?;
-    let unit = responses.iter().fold(unit, |most, pushed| most.max(pushed.condition * pushed.scale));
-    for (i, covector) in covectors.iter().enumerate() {
-        for pushed in &responses[..=i] {
-            let second = pushed.second.iter().zip(&free.second).map(|(pushed, free)| pushed - free);
-            list.push(second.zip(covector).map(|(second, a)| second * a).sum());
-        }
-    }
-    for pushed in &responses {
-        list.extend(pushed.accelerations.iter().zip(&free.accelerations).map(|(pushed, free)| pushed - free));
-        // No force acts on the states beside the motion.
-        list.extend(meaning.state_rates.iter().map(|_| 0.0));
-    }
-    let coefficients: [fn(&Touch<f64>) -> f64; 3] =
-        [|touch| touch.friction, |touch| touch.stiction, |touch| touch.limit];
-    for coefficient in coefficients {
-        list.extend(meaning.contacts.iter().map(coefficient));
-    }
-    Some((list, unit))
+/// The motion without the forces of contacts, and what these do to it, by the equations with multipliers.
+struct Motion {
+    /// Of the whole state.
+    rates: Vec<f64>,
+    /// Gaps, rows, their rates, and the lower triangle of the Delassus matrix.
+    own: Vec<f64>,
+    /// By row, what a force of one adds to the rates of the parameters and of the states beside the motion.
+    responses: Vec<Vec<f64>>,
+    /// Of friction and stiction, and limits.
+    coefficients: Vec<f64>,
+    /// Condition times scale.
+    unit: f64,
 }
 
-fn look_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
+impl Motion {
+    fn new(declared: &Declared<'_>, point: &[f64]) -> Option<Self> {
+        let free = multipliers::solve(declared, point)?;
+        let unit = free.condition * free.scale;
+        if unit > LARGEST {
+            return None;
+        }
+        let meaning = declared.meaning(point);
+        let velocities: Vec<f64> = declared.velocities.iter().map(|v| point[*v]).collect();
+        let rates =
+            velocities.iter().chain(&free.accelerations).chain(&meaning.state_rates).copied().collect();
+        let mut own: Vec<f64> = meaning.contacts.iter().map(|touch| touch.gap).collect();
+        own.extend(meaning.contacts.iter().flat_map(|touch| &touch.rows));
+        // The rates of rows along the motion: constants, inputs and states do not occur in them.
+        let n = declared.n;
+        let along = |k: usize| match k {
+            0 => 1.0,
+            k if k <= n => velocities[k - 1],
+            k if k <= 2 * n => free.second[k - n - 1],
+            _ => 0.0,
+        };
+        own.extend(rows(declared.meaning(&lift(point, along))).iter().map(|row| row.du));
+        // The derivatives of each row by the velocities.
+        let columns: Vec<Vec<Dual<f64>>> = declared
+            .velocities
+            .iter()
+            .map(|v| rows(declared.meaning(&lift(point, |k| if k == *v { 1.0 } else { 0.0 }))))
+            .collect();
+        let count = columns.first().map_or(0, Vec::len);
+        let covectors: Vec<Vec<f64>> =
+            (0..count).map(|row| columns.iter().map(|column| column[row].du).collect()).collect();
+        let pushed = covectors.iter().map(|covector| multipliers::pushed(declared, point, covector));
+        let pushed: Vec<Multipliers> = pushed.collect::<Option<_>>()?;
+        let added = |pushed: &[f64], free: &[f64]| -> Vec<f64> {
+            pushed.iter().zip(free).map(|(pushed, free)| pushed - free).collect()
+        };
+        for (i, covector) in covectors.iter().enumerate() {
+            for pushed in &pushed[..=i] {
+                let second = added(&pushed.second, &free.second);
+                own.push(second.iter().zip(covector).map(|(second, a)| second * a).sum());
+            }
+        }
+        let responses = pushed.iter().map(|pushed| {
+            let mut response = added(&pushed.accelerations, &free.accelerations);
+            // No force acts on the states beside the motion.
+            response.extend(meaning.state_rates.iter().map(|_| 0.0));
+            response
+        });
+        let [friction, stiction, limits]: [fn(&Touch<f64>) -> f64; 3] =
+            [|touch| touch.friction, |touch| touch.stiction, |touch| touch.limit];
+        let of_all = |of: fn(&Touch<f64>) -> f64| meaning.contacts.iter().map(of);
+        Some(Motion {
+            rates,
+            own,
+            responses: responses.collect(),
+            coefficients: of_all(friction).chain(of_all(stiction)).chain(of_all(limits)).collect(),
+            unit: pushed.iter().fold(unit, |most, pushed| most.max(pushed.condition * pushed.scale)),
+        })
+    }
+}
+
+/// The programs of a system, or of a scene that runs through all of its modes.
+fn look_at(text: &str, derived: &Derived<'_>, level: &Level, draw: &mut Draw) -> Seen {
     let model = &derived.model;
     let graph = &model.bench.graph;
     let symbol = |e| graph.as_symbol(e).expect("a symbol");
     let contacts = model.contacts.as_ref().expect("contacts");
-    let facts = derived.system.contacts.as_ref().expect("contacts");
-    let Numbers { mut declared, coordinates, held } = numbers(derived);
-    let mut draw = Draw::new(!seed);
+    let facts = level.contacts.as_ref().expect("contacts");
+    let selection = &level.selection;
+    let numbers = numbers(derived);
     let mut seen = Seen::default();
     for _ in 0..STATES {
-        let Some((point, etas)) = declared.state(&mut draw) else { continue };
-        let Some((motion, unit)) = free_motion(&mut declared, &point) else { continue };
+        let given = numbers.given(graph, level, draw);
+        let Numbers { declared, coordinates, held } = &numbers;
+        let Some((point, etas)) = declared.state_of(draw, given) else { continue };
+        let Some(Motion { rates, own, responses, coefficients, unit }) = Motion::new(declared, &point) else {
+            continue;
+        };
         seen.states += 1;
         let meaning = declared.meaning(&point);
         let mechanics = &model.mechanics;
@@ -111,52 +134,59 @@ fn look_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
             values.extend(entry.speed.map(|e| (symbol(e), speed)));
         }
         let program = |name: &str, values: &[(SymbolId, f64)]| {
-            let value = |symbol: SymbolId| {
-                let known = values.iter().find(|(known, _)| *known == symbol);
-                known.map(|(_, value)| *value).unwrap_or_else(|| panic!("{}", graph.symbol_info(symbol).name))
+            let value = |s: SymbolId| {
+                // What a scene fixes is a constant there.
+                let fixed = selection.held.iter().find(|fixed| graph.as_symbol(fixed.symbol) == Some(s));
+                let s = fixed.map_or(s, |fixed| symbol(model.variable(fixed.place)));
+                let known = values.iter().find(|(known, _)| *known == s);
+                known.map(|(_, value)| *value).unwrap_or_else(|| panic!("{}", graph.symbol_info(s).name))
             };
-            evaluated(&derived.system, name, value).unwrap_or_default()
+            evaluated(level, name, value).unwrap_or_default()
         };
         let signals = program(function::SIGNALS, &values);
-        let resets = meaning.resets.iter().map(|(function, _)| *function);
-        let mut expected: Vec<f64> = meaning.switches.iter().copied().chain(resets).collect();
+        let mut expected: Vec<f64> = facts.switches.iter().map(|s| meaning.switches[*s]).collect();
+        expected.extend(facts.resets.iter().map(|own| meaning.resets[own.reset].0));
         // The functions of branches have no meaning of their own: what they decide is seen in the motion.
-        let branches = &signals[expected.len()..];
-        values.extend(
-            facts.branches.iter().zip(branches).map(|(b, function)| (symbol(b.symbol), is_on(*function))),
-        );
+        let branches = signals.get(expected.len()..).unwrap_or_default();
+        let decided = facts.branches.iter().zip(branches);
+        values.extend(decided.map(|(branch, function)| (symbol(branch.symbol), is_on(*function))));
         expected.extend(branches);
-        let mut compare = |what: &str, found: Vec<f64>, expected: Vec<f64>, unit: f64| {
-            assert_eq!(found.len(), expected.len(), "{what} of\n{text}");
+        let mut compare = |name: &str, expected: Vec<f64>, unit: f64| {
+            let found = program(name, &values);
+            assert_eq!(found.len(), expected.len(), "{name} of\n{text}");
             for (place, (a, b)) in found.iter().zip(&expected).enumerate() {
                 let ratio = (a - b).abs() / unit;
-                assert!(
-                    ratio <= ROUNDING,
-                    "{what} {place}: {a}, and not {b} ({found:?} {expected:?}), of\n{text}"
-                );
+                assert!(ratio <= ROUNDING, "{name} {place}: {a}, and not {b}, of\n{text}");
                 seen.worst = seen.worst.max(ratio);
             }
         };
-        let size = |list: &[f64]| list.iter().fold(1.0_f64, |most, e| most.max(e.abs()));
-        let given: Vec<f64> = meaning.resets.iter().flat_map(|(_, values)| values.iter().copied()).collect();
-        let conditions: [fn(&Touch<f64>) -> f64; 2] = [|touch| touch.when, |touch| touch.release];
-        let conditions: Vec<f64> = conditions.iter().flat_map(|of| meaning.contacts.iter().map(of)).collect();
-        let all_plain = contacts.entries.iter().all(|entry| entry.when.is_none() && entry.release.is_none());
-        let conditions = if all_plain { Vec::new() } else { conditions };
-        let restitutions = meaning.contacts.iter().map(|touch| touch.restitution).collect();
+        let given: Vec<f64> = facts
+            .resets
+            .iter()
+            .flat_map(|own| own.assignments.iter().map(|(given, _)| meaning.resets[own.reset].1[*given]))
+            .collect();
+        let is_plain = contacts.entries.iter().all(|entry| entry.when.is_none() && entry.release.is_none());
+        let when = meaning.contacts.iter().map(|touch| touch.when);
+        let release = meaning.contacts.iter().map(|touch| touch.release);
+        let conditions = if is_plain { Vec::new() } else { when.chain(release).collect() };
+        let outputs = selection.outputs.iter().flat_map(|output| &model.outputs[*output].components);
         seen.rows += contacts.rows().count();
         seen.resets += given.len();
         for (name, expected) in [
             (function::SIGNALS, expected),
             (function::RESETS, given),
             (function::CONDITIONS, conditions),
-            (function::RESTITUTIONS, restitutions),
-            (function::OUTPUTS, meaning.outputs.clone()),
+            (function::RESTITUTIONS, meaning.contacts.iter().map(|touch| touch.restitution).collect()),
+            (function::OUTPUTS, outputs.map(|component| meaning.outputs[*component]).collect()),
         ] {
-            let unit = size(&expected);
-            compare(name, program(name, &values), expected, unit);
+            let unit = expected.iter().fold(1.0_f64, |most, e| most.max(e.abs()));
+            compare(name, expected, unit);
         }
-        compare(function::FREE_MOTION, program(function::FREE_MOTION, &values), motion, unit);
+        let places = &selection.variables;
+        let pressed = places.iter().filter_map(|place| place.checked_sub(declared.n));
+        let rates = places.iter().map(|place| rates[*place]).chain(own);
+        let responses = responses.iter().flat_map(|response| pressed.clone().map(|place| response[place]));
+        compare(function::FREE_MOTION, rates.chain(responses).chain(coefficients).collect(), unit);
     }
     seen
 }
@@ -167,8 +197,27 @@ fn contacts_of_drawn_declarations_are_what_they_mean() {
     let seeds: Vec<u64> = (0..rounds).collect();
     let found = by_two_threads(&seeds, |seed| {
         let text = grammar::with_contacts(*seed);
-        derived(&text, |derived| look_at(&text, derived, *seed))
+        derived(&text, |derived| look_at(&text, derived, &derived.system, &mut Draw::new(!seed)))
     });
+    of_all(found, rounds);
+}
+
+#[test]
+fn contacts_of_drawn_scenes_are_those_of_the_whole_system() {
+    let rounds = rounds(4);
+    let seeds: Vec<u64> = (0..rounds).collect();
+    let found = by_two_threads(&seeds, |seed| {
+        let (text, _) = scenes::drawn(&grammar::with_contacts(*seed), *seed, 2);
+        derived(&text, |derived| {
+            let levels = derived.scenes.iter().filter(|level| level.contacts.is_some());
+            let mut draw = Draw::new(seed.rotate_left(9));
+            levels.map(|level| look_at(&text, derived, level, &mut draw)).collect::<Vec<Seen>>()
+        })
+    });
+    of_all(found.into_iter().flatten().collect(), rounds);
+}
+
+fn of_all(found: Vec<Seen>, rounds: u64) {
     let sum = |of: fn(&Seen) -> usize| found.iter().map(of).sum::<usize>();
     let (states, rows, resets) = (sum(|seen| seen.states), sum(|seen| seen.rows), sum(|seen| seen.resets));
     let worst = found.iter().map(|seen| seen.worst).fold(0.0, f64::max);

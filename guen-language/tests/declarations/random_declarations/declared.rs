@@ -20,8 +20,6 @@ pub struct Declared<'a> {
     coordinates: Vec<String>,
     pub held: Vec<String>,
     forms: Vec<String>,
-    /// A generalised force beside those that are declared, one component for each coordinate.
-    pub pushed: Vec<f64>,
 }
 
 impl<'a> Declared<'a> {
@@ -43,7 +41,6 @@ impl<'a> Declared<'a> {
             coordinates,
             held,
             forms,
-            pushed: vec![0.0; n],
         }
     }
 
@@ -149,9 +146,9 @@ impl<'a> Declared<'a> {
     pub fn generalised_forces(&self, point: &[f64]) -> Vec<f64> {
         let along = |v: &usize| {
             let works = self.meaning(&lift(point, |k| if k == *v { 1.0 } else { 0.0 })).works;
-            works.iter().map(|(force, form)| force.re * form.du).sum::<f64>()
+            works.iter().map(|(force, form)| force.re * form.du).sum()
         };
-        self.velocities.iter().zip(&self.pushed).map(|(v, pushed)| along(v) + pushed).collect()
+        self.velocities.iter().map(along).collect()
     }
 
     /// The rates of a point along the motion at `x'' = 0`.

@@ -2,7 +2,7 @@
 //! they have all that their items read, and their right-hand sides never cost more.
 
 use guen_language::derive::{Derived, Level, function};
-use guen_symbolic::{ExprId, Role, SymbolId, evaluate_f64};
+use guen_symbolic::{ExprId, Role, SymbolId};
 
 use super::draw::Draw;
 use super::{Numbers, grammar, multipliers, numbers, scenes};
@@ -65,7 +65,8 @@ fn looked_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
     let model = &derived.model;
     let graph = &model.bench.graph;
     let symbol = |e: ExprId| graph.as_symbol(e).expect("a symbol");
-    let Numbers { declared, coordinates, held } = numbers(derived);
+    let numbers = numbers(derived);
+    let Numbers { declared, coordinates, held } = &numbers;
     let cost = |level: &Level| level.program(function::RHS).map_or(0, |rhs| rhs.cost.weighted());
     let mut draw = Draw::new(seed.rotate_left(9));
     let mut seen = Seen::default();
@@ -95,16 +96,9 @@ fn looked_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
             ));
         }
         for _ in 0..STATES {
-            let mut given: Vec<f64> = held.iter().map(|_| draw.real(0.5, 1.5)).collect();
-            for (constant, value) in &facts.fixes {
-                let others = |other: SymbolId| {
-                    given[held.iter().position(|(_, known)| *known == other).expect("a constant")]
-                };
-                let value = evaluate_f64(graph, &[*value], &others)[0];
-                given[*constant] = value;
-            }
+            let given = numbers.given(graph, level, &mut draw);
             let Some((point, etas)) = declared.state_of(&mut draw, given) else { continue };
-            let Some(reference) = multipliers::solve(&declared, &point) else { continue };
+            let Some(reference) = multipliers::solve(declared, &point) else { continue };
             let unit = reference.condition * reference.scale;
             if unit.is_nan() || unit > super::LARGEST {
                 continue;

@@ -30,12 +30,12 @@ mod scalar;
 mod scenes;
 mod space;
 
-use guen_language::derive::{Derived, function};
+use guen_language::derive::{Derived, Level, function};
 use guen_language::model::{self, Model};
-use guen_symbolic::{ExprId, SymbolId};
+use guen_symbolic::{ExprId, Graph, SymbolId, evaluate_f64};
 
 use crate::common::{by_two_threads, derived, evaluated, rounds};
-use declared::{Declared, lift};
+use declared::Declared;
 use draw::Draw;
 
 /// Largest difference, in units of condition times scale.
@@ -50,6 +50,20 @@ struct Numbers<'a> {
     declared: Declared<'a>,
     coordinates: Vec<(String, SymbolId)>,
     held: Vec<(String, SymbolId)>,
+}
+
+impl Numbers<'_> {
+    /// Values of constants, inputs and states; what a scene fixes has the values that it has there.
+    fn given(&self, graph: &Graph, level: &Level, draw: &mut Draw) -> Vec<f64> {
+        let mut given: Vec<f64> = self.held.iter().map(|_| draw.real(0.5, 1.5)).collect();
+        for (constant, value) in level.scene.iter().flat_map(|facts| &facts.fixes) {
+            let others = |other: SymbolId| {
+                given[self.held.iter().position(|(_, known)| *known == other).expect("a constant")]
+            };
+            given[*constant] = evaluate_f64(graph, &[*value], &others)[0];
+        }
+        given
+    }
 }
 
 fn numbers<'a>(derived: &Derived<'a>) -> Numbers<'a> {
