@@ -280,3 +280,11 @@ fn contacts_of_instances_stay_in_a_mode() {
     }";
     is_as_by_hand(text, by_hand, &["v"], &["w", "left[0].spin"]);
 }
+
+/// Friction may change with the velocity where a switch says so, also of a scene in one mode, in which the switch follows the state.
+#[test]
+fn a_switch_of_velocities_stands_in_friction() {
+    let text = WHEEL.replace("ice: (x - 5)*(9 - x);", "ice: speed_ahead - 3*spin - 2;");
+    assert_ne!(text, WHEEL);
+    derived(&text, |derived| assert_eq!(derived.in_modes.len(), 3));
+}

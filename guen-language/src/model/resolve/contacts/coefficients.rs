@@ -29,6 +29,8 @@ impl<'a> Resolver<'a, '_> {
         let own = inside.map(|speed| (SPEED.to_owned(), Value::Scalar(speed)));
         self.eval.functions.frames.push(own.into_iter().collect());
         let place = match clause.word {
+            // The whole system has checked it. Here a switch is not held, and may stand for velocities and states.
+            _ if self.declaration.in_mode.is_some() => Place::Let,
             ClauseWord::Stiction => Place::Stiction,
             _ => Place::Friction,
         };
