@@ -2,7 +2,7 @@
 
 use guen_symbolic::{CarriedFunction, ExprId};
 
-use crate::model::{FormKind, Model};
+use crate::model::{FormEntry, FormKind, Model};
 
 /// A variable of the state by its place there: coordinates first, then parameters, then states beside the motion.
 pub type StateIndex = usize;
@@ -90,9 +90,12 @@ impl Model<'_> {
         let (n, l) = (self.coordinates.len(), self.mechanics.forms.degrees);
         let state = self.states.iter().position(|state| state.name.text == name);
         let coordinate = self.coordinates.iter().position(|c| c.name.text == name);
-        let parameters = self.forms.iter().enumerate().filter(|(_, form)| {
-            form.kind == FormKind::Parameter && (form.name == name || form.written.text == name)
-        });
+        // A rate that the macro has chosen is written nowhere: its place is that of the coordinate.
+        let is_written = |form: &FormEntry<'_>| coordinate.is_none() && form.written.text == name;
+        let parameters =
+            self.forms.iter().enumerate().filter(|(_, form)| {
+                form.kind == FormKind::Parameter && (form.name == name || is_written(form))
+            });
         let parameters = parameters.map(|(s, _)| n + s);
         coordinate.into_iter().chain(parameters).chain(state.map(|k| n + l + k)).collect()
     }

@@ -288,3 +288,21 @@ fn a_switch_of_velocities_stands_in_friction() {
     assert_ne!(text, WHEEL);
     derived(&text, |derived| assert_eq!(derived.in_modes.len(), 3));
 }
+
+/// A tracked coordinate does not keep its rate, which the macro has chosen as a parameter: here `x` follows the floor five hundred
+/// times as fast as `z`, and a scene that keeps the rate of `z` loses three digits.
+#[test]
+fn a_tracked_coordinate_does_not_keep_its_rate() {
+    let text = "system Block {
+        constants { m > 0, g = 9.81 }
+        coordinates { x, z }
+        particles { m at vec(x, z); }
+        gravity = vec(0, -g);
+        contacts { floor: gap = z - x/500; }
+        scene On { modes { floor: closed; } track z; }
+    }";
+    derived(text, |derived| {
+        let (_, own) = &derived.in_modes[0];
+        assert_eq!(names(&own.model, &own.scenes[0]), ["z", "x_rate"]);
+    });
+}

@@ -36,7 +36,7 @@ pub fn solve(system: &Declared, point: &[f64]) -> Option<Multipliers> {
     pushed(system, point, &vec![0.0; system.n])
 }
 
-/// The same with a generalised force beside those that are declared, one component for each coordinate.
+/// Solves for the motion under one more generalised force, with a component for each coordinate.
 pub fn pushed(system: &Declared, point: &[f64], force: &[f64]) -> Option<Multipliers> {
     let (n, l) = (system.n, system.degrees);
     let m = n - l;

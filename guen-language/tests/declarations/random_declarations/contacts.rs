@@ -3,15 +3,15 @@
 use guen_language::derive::{Derived, Level, function};
 use guen_symbolic::SymbolId;
 
-use super::declared::{Declared, lift};
+use super::declared::Declared;
 use super::draw::Draw;
 use super::meaning::{Meaning, Touch};
 use super::multipliers::{self, Multipliers};
 use super::scalar::Dual;
-use super::{LARGEST, Numbers, ROUNDING, STATES, grammar, numbers, scenes};
+use super::{LARGEST, ROUNDING, STATES, grammar, numbers, scenes};
 use crate::common::{by_two_threads, derived, evaluated, rounds};
 
-/// What was looked at.
+/// How much was compared, and the largest difference in units of rounding.
 #[derive(Default)]
 struct Seen {
     states: usize,
@@ -52,21 +52,8 @@ impl Motion {
             velocities.iter().chain(&free.accelerations).chain(&meaning.state_rates).copied().collect();
         let mut own: Vec<f64> = meaning.contacts.iter().map(|touch| touch.gap).collect();
         own.extend(meaning.contacts.iter().flat_map(|touch| &touch.rows));
-        // The rates of rows along the motion: constants, inputs and states do not occur in them.
-        let n = declared.n;
-        let along = |k: usize| match k {
-            0 => 1.0,
-            k if k <= n => velocities[k - 1],
-            k if k <= 2 * n => free.second[k - n - 1],
-            _ => 0.0,
-        };
-        own.extend(rows(declared.meaning(&lift(point, along))).iter().map(|row| row.du));
-        // The derivatives of each row by the velocities.
-        let columns: Vec<Vec<Dual<f64>>> = declared
-            .velocities
-            .iter()
-            .map(|v| rows(declared.meaning(&lift(point, |k| if k == *v { 1.0 } else { 0.0 }))))
-            .collect();
+        own.extend(rows(declared.along_motion(point, &free.second)).iter().map(|row| row.du));
+        let columns: Vec<Vec<Dual<f64>>> = declared.by_velocities(point).map(rows).collect();
         let count = columns.first().map_or(0, Vec::len);
         let covectors: Vec<Vec<f64>> =
             (0..count).map(|row| columns.iter().map(|column| column[row].du).collect()).collect();
@@ -112,19 +99,14 @@ fn look_at(text: &str, derived: &Derived<'_>, level: &Level, draw: &mut Draw) ->
     let mut seen = Seen::default();
     for _ in 0..STATES {
         let given = numbers.given(graph, level, draw);
-        let Numbers { declared, coordinates, held } = &numbers;
+        let declared = &numbers.declared;
         let Some((point, etas)) = declared.state_of(draw, given) else { continue };
         let Some(Motion { rates, own, responses, coefficients, unit }) = Motion::new(declared, &point) else {
             continue;
         };
         seen.states += 1;
         let meaning = declared.meaning(&point);
-        let mechanics = &model.mechanics;
-        let mut values: Vec<(SymbolId, f64)> = vec![(symbol(mechanics.forms.time), point[0])];
-        values.extend(coordinates.iter().map(|(_, symbol)| *symbol).zip(point[1..].iter().copied()));
-        values
-            .extend(held.iter().map(|(_, symbol)| *symbol).zip(point[2 * declared.n + 1..].iter().copied()));
-        values.extend(mechanics.etas.iter().map(|e| symbol(*e)).zip(etas.iter().copied()));
+        let mut values = numbers.values(model, &point, &etas);
         let is_on = |function: f64| if function > 0.0 { 1.0 } else { 0.0 };
         let switches = contacts.switches.iter().zip(&meaning.switches);
         values.extend(switches.map(|(switch, function)| (symbol(switch.symbol), is_on(*function))));
@@ -135,7 +117,7 @@ fn look_at(text: &str, derived: &Derived<'_>, level: &Level, draw: &mut Draw) ->
         }
         let program = |name: &str, values: &[(SymbolId, f64)]| {
             let value = |s: SymbolId| {
-                // What a scene fixes is a constant there.
+                // A scene holds a variable that it fixes as a constant.
                 let fixed = selection.held.iter().find(|fixed| graph.as_symbol(fixed.symbol) == Some(s));
                 let s = fixed.map_or(s, |fixed| symbol(model.variable(fixed.place)));
                 let known = values.iter().find(|(known, _)| *known == s);
@@ -199,7 +181,7 @@ fn contacts_of_drawn_declarations_are_what_they_mean() {
         let text = grammar::with_contacts(*seed);
         derived(&text, |derived| look_at(&text, derived, &derived.system, &mut Draw::new(!seed)))
     });
-    of_all(found, rounds);
+    report(found, rounds);
 }
 
 #[test]
@@ -214,10 +196,10 @@ fn contacts_of_drawn_scenes_are_those_of_the_whole_system() {
             levels.map(|level| look_at(&text, derived, level, &mut draw)).collect::<Vec<Seen>>()
         })
     });
-    of_all(found.into_iter().flatten().collect(), rounds);
+    report(found.into_iter().flatten().collect(), rounds);
 }
 
-fn of_all(found: Vec<Seen>, rounds: u64) {
+fn report(found: Vec<Seen>, rounds: u64) {
     let sum = |of: fn(&Seen) -> usize| found.iter().map(of).sum::<usize>();
     let (states, rows, resets) = (sum(|seen| seen.states), sum(|seen| seen.rows), sum(|seen| seen.resets));
     let worst = found.iter().map(|seen| seen.worst).fold(0.0, f64::max);

@@ -144,11 +144,25 @@ impl<'a> Declared<'a> {
 
     /// `Q_i`: each force times the derivative of what it acts along by `x_i'`.
     pub fn generalised_forces(&self, point: &[f64]) -> Vec<f64> {
-        let along = |v: &usize| {
-            let works = self.meaning(&lift(point, |k| if k == *v { 1.0 } else { 0.0 })).works;
-            works.iter().map(|(force, form)| force.re * form.du).sum()
-        };
-        self.velocities.iter().map(along).collect()
+        let along =
+            |meaning: Meaning<Dual<f64>>| meaning.works.iter().map(|(force, form)| force.re * form.du).sum();
+        self.by_velocities(point).map(along).collect()
+    }
+
+    /// What the declaration means, with derivatives by one velocity after the other.
+    pub fn by_velocities<'p>(&'p self, point: &'p [f64]) -> impl Iterator<Item = Meaning<Dual<f64>>> + 'p {
+        self.velocities.iter().map(|v| self.meaning(&lift(point, |k| if k == *v { 1.0 } else { 0.0 })))
+    }
+
+    /// What it means, with rates along a motion: time, coordinates and velocities move, constants, inputs and states beside it do not.
+    pub fn along_motion(&self, point: &[f64], second: &[f64]) -> Meaning<Dual<f64>> {
+        let n = self.n;
+        self.meaning(&lift(point, |k| match k {
+            0 => 1.0,
+            k if k <= n => point[n + k],
+            k if k <= 2 * n => second[k - n - 1],
+            _ => 0.0,
+        }))
     }
 
     /// The rates of a point along the motion at `x'' = 0`.

@@ -337,15 +337,21 @@ pub fn with_functions(seed: u64) -> String {
 
 /// The declaration of a seed with a switch, contacts and resets.
 pub fn with_contacts(seed: u64) -> String {
+    written(seed, Parts::ContactsAndResets)
+}
+
+/// The same without resets.
+pub fn with_contacts_alone(seed: u64) -> String {
     written(seed, Parts::Contacts)
 }
 
-/// What a declaration has beside its motion.
+/// The sections of a drawn declaration that not every one has.
 #[derive(PartialEq)]
 enum Parts {
     Motion,
     Functions,
     Contacts,
+    ContactsAndResets,
 }
 
 fn written(seed: u64, parts: Parts) -> String {
@@ -412,9 +418,10 @@ fn written(seed: u64, parts: Parts) -> String {
         Default::default()
     };
     let [switches, contacts, resets] = match parts {
-        Parts::Contacts => text.contacts(&mut Draw::new(seed.rotate_left(51))),
+        Parts::Contacts | Parts::ContactsAndResets => text.contacts(&mut Draw::new(seed.rotate_left(51))),
         _ => Default::default(),
     };
+    let resets = if parts == Parts::ContactsAndResets { resets } else { String::new() };
     // Every coordinate has some inertia.
     let sluggish: Vec<String> = text.coordinates.iter().map(|q| format!("dot({q})^2/20")).collect();
     // The momentum of a constraint.

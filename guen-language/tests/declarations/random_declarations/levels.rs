@@ -5,7 +5,7 @@ use guen_language::derive::{Derived, Level, function};
 use guen_symbolic::{ExprId, Role, SymbolId};
 
 use super::draw::Draw;
-use super::{Numbers, grammar, multipliers, numbers, scenes};
+use super::{grammar, multipliers, numbers, scenes};
 use crate::common::{by_two_threads, derived, evaluated};
 
 /// Largest difference, in units of condition times scale.
@@ -66,7 +66,7 @@ fn looked_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
     let graph = &model.bench.graph;
     let symbol = |e: ExprId| graph.as_symbol(e).expect("a symbol");
     let numbers = numbers(derived);
-    let Numbers { declared, coordinates, held } = &numbers;
+    let declared = &numbers.declared;
     let cost = |level: &Level| level.program(function::RHS).map_or(0, |rhs| rhs.cost.weighted());
     let mut draw = Draw::new(seed.rotate_left(9));
     let mut seen = Seen::default();
@@ -105,10 +105,7 @@ fn looked_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
             }
             let n = declared.n;
             let mechanics = &model.mechanics;
-            let mut values = vec![(symbol(mechanics.forms.time), point[0])];
-            values.extend(coordinates.iter().map(|(_, symbol)| *symbol).zip(point[1..].iter().copied()));
-            values.extend(held.iter().map(|(_, symbol)| *symbol).zip(point[2 * n + 1..].iter().copied()));
-            values.extend(mechanics.etas.iter().map(|e| symbol(*e)).zip(etas.iter().copied()));
+            let mut values = numbers.values(model, &point, &etas);
             let accelerations = mechanics.accelerations.iter().map(|e| symbol(*e));
             values.extend(accelerations.zip(reference.accelerations.iter().copied()));
             let value_of = |symbol: SymbolId| {

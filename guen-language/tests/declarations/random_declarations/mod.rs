@@ -17,6 +17,7 @@ mod families;
 mod formulations;
 mod functions;
 mod grammar;
+mod held;
 mod levels;
 mod meaning;
 mod mechanisms;
@@ -53,6 +54,17 @@ struct Numbers<'a> {
 }
 
 impl Numbers<'_> {
+    /// The values of time, coordinates, constants, inputs, states and parameters at a point.
+    fn values(&self, model: &Model<'_>, point: &[f64], etas: &[f64]) -> Vec<(SymbolId, f64)> {
+        let symbol = |e: &ExprId| model.bench.graph.as_symbol(*e).expect("a symbol");
+        let time = symbol(&model.mechanics.forms.time);
+        let held = self.held.iter().map(|(_, symbol)| *symbol).zip(&point[2 * self.declared.n + 1..]);
+        let coordinates = self.coordinates.iter().map(|(_, symbol)| *symbol).zip(&point[1..]);
+        let parameters = model.mechanics.etas.iter().map(symbol).zip(etas);
+        let all = coordinates.chain(held).chain(parameters).map(|(symbol, value)| (symbol, *value));
+        all.chain([(time, point[0])]).collect()
+    }
+
     /// Values of constants, inputs and states; what a scene fixes has the values that it has there.
     fn given(&self, graph: &Graph, level: &Level, draw: &mut Draw) -> Vec<f64> {
         let mut given: Vec<f64> = self.held.iter().map(|_| draw.real(0.5, 1.5)).collect();
@@ -92,23 +104,20 @@ fn difference(text: &str, derived: &Derived<'_>, seed: u64) -> (f64, usize) {
     let model = &derived.model;
     let graph = &model.bench.graph;
     let symbol = |e: ExprId| graph.as_symbol(e).expect("a symbol");
-    let Numbers { declared, coordinates, held } = numbers(derived);
+    let numbers = numbers(derived);
+    let declared = &numbers.declared;
     let mut draw = Draw::new(!seed);
     let (mut worst, mut states) = (0.0_f64, 0);
     for _ in 0..STATES {
         let Some((point, etas)) = declared.state(&mut draw) else { continue };
-        let Some(reference) = multipliers::solve(&declared, &point) else { continue };
+        let Some(reference) = multipliers::solve(declared, &point) else { continue };
         let unit = reference.condition * reference.scale;
         if unit > LARGEST {
             continue;
         }
         states += 1;
         let mechanics = &model.mechanics;
-        let mut values = vec![(symbol(mechanics.forms.time), point[0])];
-        values.extend(coordinates.iter().map(|(_, symbol)| *symbol).zip(point[1..].iter().copied()));
-        values
-            .extend(held.iter().map(|(_, symbol)| *symbol).zip(point[2 * declared.n + 1..].iter().copied()));
-        values.extend(mechanics.etas.iter().map(|e| symbol(*e)).zip(etas.iter().copied()));
+        let mut values = numbers.values(model, &point, &etas);
         let speeds = declared.velocities.iter().map(|v| point[*v]);
         values.extend(mechanics.velocities.iter().map(|e| symbol(*e)).zip(speeds.clone()));
         let accelerations = mechanics.accelerations.iter().map(|e| symbol(*e));
