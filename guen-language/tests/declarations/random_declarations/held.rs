@@ -233,11 +233,11 @@ fn look_at(text: &str, derived: &Derived<'_>, mode: &Mode, draw: &mut Draw) -> S
         let states = own.model.states.iter().map(|state| &state.name.text);
         for (found, variable) in rates.expect("a program").iter().zip(&level.selection.variables) {
             let name = own.model.variable_name(*variable);
-            let expected = match (place(&coordinates, &name), states.clone().position(|state| *state == name))
+            let expected = match (place(&coordinates, name), states.clone().position(|state| *state == name))
             {
                 (Some(i), _) => point[1 + n + i],
                 (_, Some(state)) => moving.state_rates[state].re,
-                _ => moving.forms[&*name].du,
+                _ => moving.forms[name].du,
             };
             let ratio = (found - expected).abs() / unit;
             assert!(

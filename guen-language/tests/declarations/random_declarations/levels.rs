@@ -103,7 +103,6 @@ fn looked_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
             if unit.is_nan() || unit > super::LARGEST {
                 continue;
             }
-            let n = declared.n;
             let mechanics = &model.mechanics;
             let mut values = numbers.values(model, &point, &etas);
             let accelerations = mechanics.accelerations.iter().map(|e| symbol(*e));
