@@ -121,6 +121,26 @@ fn a_quaternion_and_a_closed_loop_get_rates_that_follow_the_motion() {
 }
 
 /// Too many sets to compare them all: seven bodies on rails that are coupled in a ring.
+/// Four rods of one length fold, and where they are folded one of their rates vanishes, whichever is given.
+#[test]
+fn loops_of_equal_rods_get_the_rate_of_what_is_beside_them() {
+    for (base, given) in ["p", "q", "r"].iter().flat_map(|given| [("d", given), ("1", given)]) {
+        let text = format!(
+            "pub system Rhombus {{
+                constants {{ a > 0, b > 0, c > 0, d > 0, m > 0 }}
+                coordinates {{ p, q, r, s }}
+                parameters {{ w = dot({given}); }}
+                let elbow = a*vec(cos(p), sin(p));
+                let hand = elbow + b*vec(cos(q), sin(q));
+                particles {{ m at elbow; m at hand; m at hand + vec(s, 0); }}
+                holonomic {{ closes: hand = {base}*vec(1, 0) + c*vec(cos(r), sin(r)); }}
+            }}"
+        );
+        assert_eq!(outcome(&text).0, ["w", "s_rate"], "{base} {given}");
+        derived(&text, |derived| assert!(derived.model.chosen.is_some(), "{base} {given}"));
+    }
+}
+
 #[test]
 fn large_systems_get_rates_too() {
     let count = 24;

@@ -1,6 +1,7 @@
 //! Drawn declarations with switches, contacts and resets: the programs that runs through modes are made of, against their meaning.
 
 use guen_language::derive::{Derived, Level, function};
+use guen_language::model::ContactEntry;
 use guen_symbolic::SymbolId;
 
 use super::declared::Declared;
@@ -13,11 +14,12 @@ use crate::common::{by_two_threads, derived, evaluated, rounds};
 
 /// How much was compared, and the largest difference in units of rounding.
 #[derive(Default)]
-struct Seen {
-    states: usize,
-    rows: usize,
-    resets: usize,
-    worst: f64,
+pub struct Seen {
+    pub states: usize,
+    pub rows: usize,
+    pub resets: usize,
+    loads: usize,
+    pub worst: f64,
 }
 
 /// The rows of all contacts.
@@ -35,8 +37,11 @@ struct Motion {
     responses: Vec<Vec<f64>>,
     /// Of friction and stiction, and limits.
     coefficients: Vec<f64>,
+    /// By contact that a reaction of the declaration loads, that reaction, and what a force of each row adds to it.
+    loads: Vec<f64>,
     /// Condition times scale.
     unit: f64,
+    condition: f64,
 }
 
 impl Motion {
@@ -74,6 +79,12 @@ impl Motion {
             response.extend(meaning.state_rates.iter().map(|_| 0.0));
             response
         });
+        let loading = meaning.contacts.iter().filter_map(|touch| declared.reaction(touch.load.as_ref()?));
+        let loads = loading.flat_map(|place| {
+            let own = free.reactions[place];
+            let changes = pushed.iter().map(move |pushed| pushed.reactions[place] - own);
+            [own].into_iter().chain(changes)
+        });
         let [friction, stiction, limits]: [fn(&Touch<f64>) -> f64; 3] =
             [|touch| touch.friction, |touch| touch.stiction, |touch| touch.limit];
         let of_all = |of: fn(&Touch<f64>) -> f64| meaning.contacts.iter().map(of);
@@ -81,14 +92,16 @@ impl Motion {
             rates,
             own,
             responses: responses.collect(),
+            loads: loads.collect(),
+            condition: free.condition,
             coefficients: of_all(friction).chain(of_all(stiction)).chain(of_all(limits)).collect(),
             unit: pushed.iter().fold(unit, |most, pushed| most.max(pushed.condition * pushed.scale)),
         })
     }
 }
 
-/// The programs of a system, or of a scene that runs through all of its modes.
-fn look_at(text: &str, derived: &Derived<'_>, level: &Level, draw: &mut Draw) -> Seen {
+/// The programs of a system, or of a scene that runs through modes, at states that are drawn of these numbers.
+pub fn look_at(derived: &Derived<'_>, level: &Level, on: &Declared<'_>, draw: &mut Draw) -> Seen {
     let model = &derived.model;
     let graph = &model.bench.graph;
     let symbol = |e| graph.as_symbol(e).expect("a symbol");
@@ -100,19 +113,19 @@ fn look_at(text: &str, derived: &Derived<'_>, level: &Level, draw: &mut Draw) ->
     for _ in 0..STATES {
         let given = numbers.given(graph, level, draw);
         let declared = &numbers.declared;
-        let Some((point, etas)) = declared.state_of(draw, given) else { continue };
-        let Some(Motion { rates, own, responses, coefficients, unit }) = Motion::new(declared, &point) else {
-            continue;
-        };
+        let Some((point, _)) = on.state_of(draw, given) else { continue };
+        let Some(motion) = Motion::new(declared, &point) else { continue };
+        let Motion { rates, own, responses, coefficients, loads, unit, condition } = motion;
         seen.states += 1;
         let meaning = declared.meaning(&point);
+        let parameters = &model.forms[..model.mechanics.forms.degrees];
+        let etas: Vec<f64> = parameters.iter().map(|form| meaning.forms[&form.name]).collect();
         let mut values = numbers.values(model, &point, &etas);
         let is_on = |function: f64| if function > 0.0 { 1.0 } else { 0.0 };
         let switches = contacts.switches.iter().zip(&meaning.switches);
         values.extend(switches.map(|(switch, function)| (symbol(switch.symbol), is_on(*function))));
         for (entry, touch) in contacts.entries.iter().zip(&meaning.contacts) {
-            let slips = &touch.rows[usize::from(entry.gap.is_some())..];
-            let speed = slips.iter().fold(0.0_f64, |speed, slip| speed.hypot(*slip));
+            let speed = touch.slips().iter().fold(0.0_f64, |speed, slip| speed.hypot(*slip));
             values.extend(entry.speed.map(|e| (symbol(e), speed)));
         }
         let program = |name: &str, values: &[(SymbolId, f64)]| {
@@ -135,10 +148,10 @@ fn look_at(text: &str, derived: &Derived<'_>, level: &Level, draw: &mut Draw) ->
         expected.extend(branches);
         let mut compare = |name: &str, expected: Vec<f64>, unit: f64| {
             let found = program(name, &values);
-            assert_eq!(found.len(), expected.len(), "{name} of\n{text}");
+            assert_eq!(found.len(), expected.len(), "{name} of\n{}", model.declaration);
             for (place, (a, b)) in found.iter().zip(&expected).enumerate() {
                 let ratio = (a - b).abs() / unit;
-                assert!(ratio <= ROUNDING, "{name} {place}: {a}, and not {b}, of\n{text}");
+                assert!(ratio <= ROUNDING, "{name} {place}: {a}, and not {b}, of\n{}", model.declaration);
                 seen.worst = seen.worst.max(ratio);
             }
         };
@@ -150,7 +163,19 @@ fn look_at(text: &str, derived: &Derived<'_>, level: &Level, draw: &mut Draw) ->
         let is_plain = contacts.entries.iter().all(|entry| entry.when.is_none() && entry.release.is_none());
         let when = meaning.contacts.iter().map(|touch| touch.when);
         let release = meaning.contacts.iter().map(|touch| touch.release);
-        let conditions = if is_plain { Vec::new() } else { when.chain(release).collect() };
+        let mut conditions = if is_plain { Vec::new() } else { when.chain(release).collect::<Vec<f64>>() };
+        // What is never open in a scene needs no condition to close.
+        let found = program(function::CONDITIONS, &values);
+        let never_open = |place: usize| facts.modes.iter().all(|mode| mode[place] > 0);
+        let has_condition = |(place, entry): (usize, &ContactEntry<'_>)| {
+            entry.release.is_some() || entry.when.is_some() && !never_open(place)
+        };
+        if found.is_empty() && !contacts.entries.iter().enumerate().any(has_condition) {
+            conditions.clear();
+        }
+        let lost = conditions.iter_mut().take(contacts.entries.len()).zip(&found).enumerate();
+        let lost = lost.filter(|(place, (_, found))| never_open(*place) && **found == 1.0);
+        lost.for_each(|(_, (when, _))| *when = 1.0);
         let outputs = selection.outputs.iter().flat_map(|output| &model.outputs[*output].components);
         seen.rows += contacts.rows().count();
         seen.resets += given.len();
@@ -168,6 +193,9 @@ fn look_at(text: &str, derived: &Derived<'_>, level: &Level, draw: &mut Draw) ->
         let pressed = places.iter().filter_map(|place| place.checked_sub(declared.n));
         let rates = places.iter().map(|place| rates[*place]).chain(own);
         let responses = responses.iter().flat_map(|response| pressed.clone().map(|place| response[place]));
+        seen.loads += loads.len();
+        // A reaction is formed along `X_v`, which has the inverse of the forms once more.
+        compare(function::LOADS, loads, unit * condition);
         compare(function::FREE_MOTION, rates.chain(responses).chain(coefficients).collect(), unit);
     }
     seen
@@ -179,7 +207,9 @@ fn contacts_of_drawn_declarations_are_what_they_mean() {
     let seeds: Vec<u64> = (0..rounds).collect();
     let found = by_two_threads(&seeds, |seed| {
         let text = grammar::with_contacts(*seed);
-        derived(&text, |derived| look_at(&text, derived, &derived.system, &mut Draw::new(!seed)))
+        derived(&text, |derived| {
+            look_at(derived, &derived.system, &numbers(derived).declared, &mut Draw::new(!seed))
+        })
     });
     report(found, rounds);
 }
@@ -193,7 +223,8 @@ fn contacts_of_drawn_scenes_are_those_of_the_whole_system() {
         derived(&text, |derived| {
             let levels = derived.scenes.iter().filter(|level| level.contacts.is_some());
             let mut draw = Draw::new(seed.rotate_left(9));
-            levels.map(|level| look_at(&text, derived, level, &mut draw)).collect::<Vec<Seen>>()
+            let whole = numbers(derived).declared;
+            levels.map(|level| look_at(derived, level, &whole, &mut draw)).collect::<Vec<Seen>>()
         })
     });
     report(found.into_iter().flatten().collect(), rounds);
@@ -202,9 +233,10 @@ fn contacts_of_drawn_scenes_are_those_of_the_whole_system() {
 fn report(found: Vec<Seen>, rounds: u64) {
     let sum = |of: fn(&Seen) -> usize| found.iter().map(of).sum::<usize>();
     let (states, rows, resets) = (sum(|seen| seen.states), sum(|seen| seen.rows), sum(|seen| seen.resets));
+    let loads = sum(|seen| seen.loads);
     let worst = found.iter().map(|seen| seen.worst).fold(0.0, f64::max);
     println!(
-        "{states} states of {rounds} systems, {rows} rows, {resets} new values, at most {worst:.1e} of condition times scale"
+        "{states} states of {rounds} systems, {rows} rows, {resets} new values, {loads} numbers of loads, at most {worst:.1e} of condition times scale"
     );
     assert!(states as u64 >= 2 * rounds && rows > states && resets > states, "{states} states only");
 }

@@ -17,7 +17,7 @@ pub struct Declared<'a> {
     pub degrees: usize,
     pub x: Vec<usize>,
     pub velocities: Vec<usize>,
-    coordinates: Vec<String>,
+    pub coordinates: Vec<String>,
     pub held: Vec<String>,
     forms: Vec<String>,
 }
@@ -42,6 +42,11 @@ impl<'a> Declared<'a> {
             held,
             forms,
         }
+    }
+
+    /// The place of the reaction of an equation among all reactions.
+    pub fn reaction(&self, name: &str) -> Option<usize> {
+        self.forms[self.degrees..].iter().position(|form| form == name)
     }
 
     /// What it means at a point.
@@ -93,6 +98,10 @@ impl<'a> Declared<'a> {
             for (i, x) in self.x.iter().enumerate() {
                 let moving = self.meaning(&lift(&point, |k| if k == *x { 1.0 } else { 0.0 })).positions;
                 slopes.set_column(i, &DVector::from_iterator(left.len(), moving.iter().map(|e| e.du)));
+            }
+            // Outside of the domain of a root or a logarithm no decomposition ends.
+            if !slopes.iter().chain(&left).all(|e| e.is_finite()) {
+                return None;
             }
             let step = slopes.svd(true, true).solve(&DVector::from_vec(left), 1e-9).ok()?;
             for (x, step) in self.x.iter().zip(step.iter()) {

@@ -31,6 +31,10 @@ struct Text {
     named: Vec<String>,
     /// The states beside the motion.
     states: Vec<String>,
+    /// Equations of one component, and contacts without friction: what may press on a grip.
+    pressing: Vec<String>,
+    /// Whether every function has one formula everywhere.
+    one_formula: bool,
 }
 
 const NUMBERS: [&str; 8] = ["1", "2", "1/2", "3/10", "0.7", "1.5", "2/3", "5/4"];
@@ -231,6 +235,7 @@ impl Text {
         let (a, b) =
             (self.free[draw.below(self.free.len())].clone(), self.free[draw.below(self.free.len())].clone());
         let (name, number) = (self.fresh("c"), draw.pick(&NUMBERS));
+        self.pressing.push(name.clone());
         match draw.below(6) {
             0 => self.constraints += &format!("{name}: dot({bound}) = {number}*cos({a})*dot({b}); "),
             1 => {
@@ -302,8 +307,15 @@ impl Text {
 
     /// A function of some coordinates.
     fn function(&mut self, draw: &mut Draw, depth: usize) -> String {
-        let names = [0; 2].map(|_| self.coordinates[draw.below(self.coordinates.len())].clone());
-        function(draw, names.each_ref().map(|name| &name[..]), depth)
+        loop {
+            let names = [0; 2].map(|_| self.coordinates[draw.below(self.coordinates.len())].clone());
+            let found = function(draw, names.each_ref().map(|name| &name[..]), depth);
+            if !self.one_formula
+                || is_smooth(&found) && !["select(", "sign("].iter().any(|f| found.contains(f))
+            {
+                return found;
+            }
+        }
     }
 
     fn parameter(&mut self, draw: &mut Draw, q: &str) {
@@ -323,6 +335,11 @@ impl Text {
             self.named.push(name);
         }
     }
+}
+
+/// Whether a function has no kinks.
+fn is_smooth(function: &str) -> bool {
+    !["abs(", "max(", "min(", "clamp("].iter().any(|kinked| function.contains(kinked))
 }
 
 /// A declaration; the same for the same seed.
@@ -345,19 +362,25 @@ pub fn with_contacts_alone(seed: u64) -> String {
     written(seed, Parts::Contacts)
 }
 
+/// The same with functions of one formula everywhere, and without the switch.
+pub fn with_contacts_of_one_formula(seed: u64) -> String {
+    written(seed, Parts::ContactsOfOneFormula)
+}
+
 /// The sections of a drawn declaration that not every one has.
 #[derive(PartialEq)]
 enum Parts {
     Motion,
     Functions,
     Contacts,
+    ContactsOfOneFormula,
     ContactsAndResets,
 }
 
 fn written(seed: u64, parts: Parts) -> String {
     let mut draw = Draw::new(seed);
     let draw = &mut draw;
-    let mut text = Text::default();
+    let mut text = Text { one_formula: parts == Parts::ContactsOfOneFormula, ..Text::default() };
     let mut poses = vec![if draw.once_in(4) {
         (format!("rot_z({}*t)", draw.pick(&NUMBERS)), "vec(sin(t)/2, 0, 0)".to_owned())
     } else {
@@ -406,7 +429,7 @@ fn written(seed: u64, parts: Parts) -> String {
     }
     if draw.once_in(3) {
         let (push, along) = (text.function(draw, 2), text.coordinates[0].clone());
-        let step = draw.pick(&["abs", "sign", "floor", "2*abs"]);
+        let step = if text.one_formula { "sin" } else { draw.pick(&["abs", "sign", "floor", "2*abs"]) };
         text.forces += &format!("({push})*{step}(dot({along})) along dot({along}); ");
     }
     let states = text.states(&mut Draw::new(seed.rotate_left(23)));
@@ -418,8 +441,8 @@ fn written(seed: u64, parts: Parts) -> String {
         Default::default()
     };
     let [switches, contacts, resets] = match parts {
-        Parts::Contacts | Parts::ContactsAndResets => text.contacts(&mut Draw::new(seed.rotate_left(51))),
-        _ => Default::default(),
+        Parts::Motion | Parts::Functions => Default::default(),
+        _ => text.contacts(&mut Draw::new(seed.rotate_left(51))),
     };
     let resets = if parts == Parts::ContactsAndResets { resets } else { String::new() };
     // Every coordinate has some inertia.

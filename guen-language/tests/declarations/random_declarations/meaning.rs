@@ -41,14 +41,24 @@ pub struct Meaning<R> {
 /// A contact, grip or latch; zero, or one for the condition of closing, for what is not written.
 pub struct Touch<R> {
     pub gap: R,
+    has_gap: bool,
     /// The velocities that vanish where it holds.
     pub rows: Vec<R>,
     pub friction: R,
     pub stiction: R,
     pub restitution: R,
     pub limit: R,
+    /// The row whose reaction presses.
+    pub load: Option<String>,
     pub when: R,
     pub release: R,
+}
+
+impl<R> Touch<R> {
+    /// The velocities that vanish where it sticks.
+    pub fn slips(&self) -> &[R] {
+        &self.rows[usize::from(self.has_gap)..]
+    }
 }
 
 /// Why there is no number.
@@ -243,6 +253,7 @@ impl<R: Analytic> Meaning<R> {
             rows.push(velocity(value.du.clone()).re);
             self.names.insert(format!("gap({name})"), Value::Scalar(value));
         }
+        let has_gap = !rows.is_empty();
         let mut slips = Vec::new();
         if let Some(e) = clause(ClauseWord::Slip).or(clause(ClauseWord::Grip)) {
             let value = self.value(e)?;
@@ -264,18 +275,21 @@ impl<R: Analytic> Meaning<R> {
             None => or(ClauseWord::Friction, &resting, 0.0)?,
         };
         let mut limit = or(ClauseWord::Limit, self, 0.0)?;
-        // The coefficient and the load of a grip are its limit.
-        if let Some(load) = clause(ClauseWord::Load) {
+        let load = clause(ClauseWord::Load).and_then(row_of);
+        // The coefficient and the load of a grip are its limit, unless that is a reaction.
+        if let Some(load) = clause(ClauseWord::Load).filter(|_| load.is_none()) {
             limit = friction.times(&self.scalar(load)?.re);
             (friction, stiction) = (R::constant(0.0), R::constant(0.0));
         }
         Ok(Touch {
             gap,
+            has_gap,
             rows,
             friction,
             stiction,
             restitution: or(ClauseWord::Restitution, self, 0.0)?,
             limit,
+            load,
             when: or(ClauseWord::When, self, 1.0)?,
             release: or(ClauseWord::Release, self, -1.0)?,
         })
@@ -496,6 +510,16 @@ impl<R: Analytic> Meaning<R> {
             _ => None,
         };
         found.ok_or_else(|| format!("no `{name}`"))
+    }
+}
+
+/// The row in `reaction(row)`.
+pub fn row_of(load: &Expression) -> Option<String> {
+    match &load.kind {
+        ExpressionKind::Call { function, arguments, .. } if function.text == "reaction" => {
+            Some(arguments[0].to_string())
+        }
+        _ => None,
     }
 }
 

@@ -21,6 +21,7 @@ mod held;
 mod levels;
 mod meaning;
 mod mechanisms;
+mod modes;
 #[allow(dead_code, reason = "systems drawn over expressions use the rest")]
 #[path = "../../../../guen-symbolic/tests/random_systems/multipliers.rs"]
 mod multipliers;
@@ -29,6 +30,7 @@ pub mod printed;
 #[path = "../../../../guen-symbolic/tests/random_systems/scalar.rs"]
 mod scalar;
 mod scenes;
+mod several;
 mod space;
 
 use guen_language::derive::{Derived, Level, function};

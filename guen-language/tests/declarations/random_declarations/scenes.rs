@@ -63,7 +63,7 @@ impl Names {
 }
 
 /// Some of a list, each once.
-fn some(draw: &mut Draw, list: &[String], most: usize) -> Vec<String> {
+pub fn some(draw: &mut Draw, list: &[String], most: usize) -> Vec<String> {
     let count = draw.between(1, most).min(list.len());
     draw.permutation(list.len())[..count].iter().map(|i| list[*i].clone()).collect()
 }

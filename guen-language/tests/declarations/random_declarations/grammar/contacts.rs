@@ -1,14 +1,17 @@
 //! Switches, contacts of every kind and resets of a drawn declaration.
 
-use super::{Draw, NUMBERS, Text};
+use super::{Draw, NUMBERS, Text, is_smooth};
 
 impl Text {
     /// The sections; a force depends on the switch, and outputs on the contacts. Every row moves a free coordinate of its own, so that
     /// none is a multiple of another.
     pub(super) fn contacts(&mut self, draw: &mut Draw) -> [String; 3] {
         let q = self.coordinates[draw.below(self.coordinates.len())].clone();
-        let switch = format!("on: {};", self.signal(draw));
-        self.forces += &format!("(1/2 - on)*{q} along dot({q}); ");
+        let mut switch = format!("on: {};", self.signal(draw));
+        if self.one_formula {
+            switch.clear();
+        }
+        self.forces += &format!("(1/2 - {})*{q} along dot({q}); ", self.on());
         let mut leading = self.free.clone();
         let mut contacts = String::new();
         for (kind, most) in [("wheel", 3), ("stop", 1), ("brake", 2), ("lock", 1)] {
@@ -25,10 +28,18 @@ impl Text {
                 }
                 _ => self.touch(draw, kind, &rows),
             };
+            if kind == "stop" {
+                self.pressing.push(kind.to_owned());
+            }
         }
         let resets: String =
             (0..draw.between(1, 2)).map(|k| self.reset(draw, &format!("reset{k}"))).collect();
         [switch, contacts, resets]
+    }
+
+    /// The switch, or the number that it is everywhere.
+    fn on(&self) -> &'static str {
+        if self.one_formula { "2/3" } else { "on" }
     }
 
     /// A function that passes through zero, of everything but inputs.
@@ -47,13 +58,23 @@ impl Text {
     fn smooth(&mut self, draw: &mut Draw) -> String {
         loop {
             let function = self.function(draw, 1);
-            if !["abs(", "max(", "min(", "clamp("].iter().any(|kinked| function.contains(kinked)) {
+            if is_smooth(&function) {
                 return function;
             }
         }
     }
 
+    /// A coordinate whose velocity does not depend on this one, or the time.
+    fn other(&self, draw: &mut Draw, q: &str) -> String {
+        let others: Vec<&String> = self.free.iter().filter(|other| *other != q).collect();
+        others.get(draw.below(others.len().max(1))).map_or("t".to_owned(), |other| other.to_string())
+    }
+
     fn gap(&mut self, draw: &mut Draw, q: &str) -> String {
+        if self.one_formula && draw.once_in(2) {
+            let other = self.other(draw, q);
+            return format!("2*{q} - {}*sin({other}) + cos(t)/7", draw.pick(&NUMBERS));
+        }
         let (number, function) = (draw.pick(&NUMBERS), self.smooth(draw));
         let height = match self.rigid.last() {
             Some((_, origin)) if draw.once_in(2) => format!(" + inner({origin}, vec(1/5, {number}, 1/3))"),
@@ -64,6 +85,10 @@ impl Text {
 
     /// A velocity along a coordinate, and that of a point of a body.
     fn velocity(&mut self, draw: &mut Draw, q: &str) -> String {
+        if self.one_formula && draw.once_in(2) {
+            let other = self.other(draw, q);
+            return format!("dot({q}) - cos({other})*dot({other}) + sin(t)");
+        }
         let other = self.coordinates[draw.below(self.coordinates.len())].clone();
         let (number, function) = (draw.pick(&NUMBERS), self.function(draw, 1));
         match self.rigid.last() {
@@ -91,9 +116,10 @@ impl Text {
         if let along @ [_, ..] = &rows[1..] {
             let q = self.coordinates[0].clone();
             let slip = self.velocities(draw, along);
-            clauses += &format!(", slip = {slip}, friction = 3/10 + speed/(9 + speed) + on/7 + cos({q})/9");
+            let on = self.on();
+            clauses += &format!(", slip = {slip}, friction = 3/10 + speed/(9 + speed) + {on}/7 + cos({q})/9");
             if draw.once_in(2) {
-                clauses += &format!(", stiction = 7/10 + on*cos({q} - t)/9");
+                clauses += &format!(", stiction = 7/10 + {on}*cos({q} - t)/9");
             }
             let component = if along.len() > 1 { ".y" } else { "" };
             self.outputs += &format!("{name}_slip = slip({name}){component}*{q};\n");
@@ -112,11 +138,26 @@ impl Text {
         let held = self.inputs.first().or(self.states.last()).unwrap_or(&self.coordinates[0]).clone();
         let q = self.coordinates[draw.below(self.coordinates.len())].clone();
         let limit = if draw.once_in(2) {
-            format!("limit = 2 + {held}^2 + on*dot({q})^2")
+            if self.pressing.is_empty() {
+                self.guide(draw);
+            }
+            let row = &self.pressing[draw.below(self.pressing.len())];
+            format!("friction = 1/5 + 1/(3 + speed), load = reaction({row})")
+        } else if draw.once_in(2) {
+            format!("limit = 2 + {held}^2 + {}*dot({q})^2", self.on())
         } else {
             format!("friction = 1/5 + 1/(3 + speed), load = 3 + {held}^2*cos({q})")
         };
         format!("brake: grip = {velocity}, {limit};\n")
+    }
+
+    /// A further coordinate that a constraint moves.
+    fn guide(&mut self, draw: &mut Draw) {
+        let q = self.coordinates[draw.below(self.coordinates.len())].clone();
+        let (name, bound) = (self.fresh("guide"), self.bound("w"));
+        let number = draw.pick(&NUMBERS);
+        self.constraints += &format!("{name}: dot({bound}) = {number}*cos({q})*dot({q}) + {q}*t/5; ");
+        self.pressing.push(name);
     }
 
     fn reset(&mut self, draw: &mut Draw, name: &str) -> String {
@@ -130,7 +171,7 @@ impl Text {
             let function = self.function(draw, 1);
             text += &match draw.below(3) {
                 0 => format!(", {variable} = -{number}*{other}"),
-                1 => format!(", {variable} = {other} + on*{held}*{number}"),
+                1 => format!(", {variable} = {other} + {}*{held}*{number}", self.on()),
                 _ => format!(", {variable} = {variable}/2 + ({function})*{held} - t/3"),
             };
         }
