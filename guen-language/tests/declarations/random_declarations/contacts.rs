@@ -6,7 +6,7 @@ use guen_symbolic::SymbolId;
 
 use super::declared::Declared;
 use super::draw::Draw;
-use super::meaning::{Meaning, Touch};
+use super::meaning::{Asked, Meaning, Touch};
 use super::multipliers::{self, Multipliers};
 use super::scalar::Dual;
 use super::{LARGEST, ROUNDING, STATES, grammar, numbers, scenes};
@@ -39,6 +39,8 @@ struct Motion {
     coefficients: Vec<f64>,
     /// By contact that a reaction of the declaration loads, that reaction, and what a force of each row adds to it.
     loads: Vec<f64>,
+    /// Without forces of contacts, and what a force of each row adds.
+    outputs: Vec<Vec<f64>>,
     /// Condition times scale.
     unit: f64,
     condition: f64,
@@ -85,6 +87,20 @@ impl Motion {
             let changes = pushed.iter().map(move |pushed| pushed.reactions[place] - own);
             [own].into_iter().chain(changes)
         });
+        let outputs = [&free].into_iter().chain(&pushed).map(|motion| declared.outputs(point, motion));
+        let mut outputs: Vec<Vec<f64>> = outputs.collect();
+        let (without, with) = outputs.split_at_mut(1);
+        for (row, with) in with.iter_mut().enumerate() {
+            with.iter_mut().zip(&without[0]).for_each(|(with, without)| *with -= without);
+            // The force along the gap of a contact is its reaction.
+            for (place, asked) in &meaning.asked {
+                if let Asked::Reaction(name) = asked
+                    && meaning.contact_of_row(row) == Some(name)
+                {
+                    with[*place] = 1.0;
+                }
+            }
+        }
         let [friction, stiction, limits]: [fn(&Touch<f64>) -> f64; 3] =
             [|touch| touch.friction, |touch| touch.stiction, |touch| touch.limit];
         let of_all = |of: fn(&Touch<f64>) -> f64| meaning.contacts.iter().map(of);
@@ -93,6 +109,7 @@ impl Motion {
             own,
             responses: responses.collect(),
             loads: loads.collect(),
+            outputs,
             condition: free.condition,
             coefficients: of_all(friction).chain(of_all(stiction)).chain(of_all(limits)).collect(),
             unit: pushed.iter().fold(unit, |most, pushed| most.max(pushed.condition * pushed.scale)),
@@ -115,7 +132,7 @@ pub fn look_at(derived: &Derived<'_>, level: &Level, on: &Declared<'_>, draw: &m
         let declared = &numbers.declared;
         let Some((point, _)) = on.state_of(draw, given) else { continue };
         let Some(motion) = Motion::new(declared, &point) else { continue };
-        let Motion { rates, own, responses, coefficients, loads, unit, condition } = motion;
+        let Motion { rates, own, responses, coefficients, loads, outputs, unit, condition } = motion;
         seen.states += 1;
         let meaning = declared.meaning(&point);
         let parameters = &model.forms[..model.mechanics.forms.degrees];
@@ -146,8 +163,8 @@ pub fn look_at(derived: &Derived<'_>, level: &Level, on: &Declared<'_>, draw: &m
         let decided = facts.branches.iter().zip(branches);
         values.extend(decided.map(|(branch, function)| (symbol(branch.symbol), is_on(*function))));
         expected.extend(branches);
-        let mut compare = |name: &str, expected: Vec<f64>, unit: f64| {
-            let found = program(name, &values);
+        let mut compare = |name: &str, values: &[(SymbolId, f64)], expected: Vec<f64>, unit: f64| {
+            let found = program(name, values);
             assert_eq!(found.len(), expected.len(), "{name} of\n{}", model.declaration);
             for (place, (a, b)) in found.iter().zip(&expected).enumerate() {
                 let ratio = (a - b).abs() / unit;
@@ -176,7 +193,8 @@ pub fn look_at(derived: &Derived<'_>, level: &Level, on: &Declared<'_>, draw: &m
         let lost = conditions.iter_mut().take(contacts.entries.len()).zip(&found).enumerate();
         let lost = lost.filter(|(place, (_, found))| never_open(*place) && **found == 1.0);
         lost.for_each(|(_, (when, _))| *when = 1.0);
-        let outputs = selection.outputs.iter().flat_map(|output| &model.outputs[*output].components);
+        let components = selection.outputs.iter().flat_map(|output| &model.outputs[*output].components);
+        let components: Vec<usize> = components.copied().collect();
         seen.rows += contacts.rows().count();
         seen.resets += given.len();
         for (name, expected) in [
@@ -184,19 +202,30 @@ pub fn look_at(derived: &Derived<'_>, level: &Level, on: &Declared<'_>, draw: &m
             (function::RESETS, given),
             (function::CONDITIONS, conditions),
             (function::RESTITUTIONS, meaning.contacts.iter().map(|touch| touch.restitution).collect()),
-            (function::OUTPUTS, outputs.map(|component| meaning.outputs[*component]).collect()),
         ] {
             let unit = expected.iter().fold(1.0_f64, |most, e| most.max(e.abs()));
-            compare(name, expected, unit);
+            compare(name, &values, expected, unit);
         }
+        // With accelerations and reactions, at forces of contacts that are drawn.
+        let forces: Vec<f64> = contacts.rows().map(|_| draw.real(-1.0, 1.0)).collect();
+        let component = |at: &dyn Fn(usize) -> f64| components.iter().map(|c| at(*c)).collect::<Vec<f64>>();
+        let free = component(&|c| outputs[0][c]);
+        let pressed = component(&|c| {
+            outputs[0][c]
+                + forces.iter().zip(&outputs[1..]).map(|(force, added)| force * added[c]).sum::<f64>()
+        });
+        let size = free.iter().fold(unit * condition, |most, e| most.max(e.abs()));
+        compare(function::OUTPUTS, &values, free, size);
+        values.extend(contacts.rows().map(|row| symbol(row.force)).zip(forces));
+        compare(function::CONTACT_OUTPUTS, &values, pressed, size);
         let places = &selection.variables;
         let pressed = places.iter().filter_map(|place| place.checked_sub(declared.n));
         let rates = places.iter().map(|place| rates[*place]).chain(own);
         let responses = responses.iter().flat_map(|response| pressed.clone().map(|place| response[place]));
         seen.loads += loads.len();
         // A reaction is formed along `X_v`, which has the inverse of the forms once more.
-        compare(function::LOADS, loads, unit * condition);
-        compare(function::FREE_MOTION, rates.chain(responses).chain(coefficients).collect(), unit);
+        compare(function::LOADS, &values, loads, unit * condition);
+        compare(function::FREE_MOTION, &values, rates.chain(responses).chain(coefficients).collect(), unit);
     }
     seen
 }

@@ -7,7 +7,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::analytic::Analytic;
 use super::draw::Draw;
-use super::meaning::Meaning;
+use super::meaning::{Asked, Meaning};
+use super::multipliers::Multipliers;
 use super::scalar::{Dual, solve};
 
 /// What is declared, and the places of its symbols in a point: time, coordinates, velocities, constants and inputs.
@@ -172,6 +173,22 @@ impl<'a> Declared<'a> {
             k if k <= 2 * n => second[k - n - 1],
             _ => 0.0,
         }))
+    }
+
+    /// The components of the outputs in a motion.
+    pub fn outputs(&self, point: &[f64], motion: &Multipliers) -> Vec<f64> {
+        let Meaning { mut outputs, asked, .. } = self.meaning(point);
+        let moving = self.along_motion(point, &motion.second).outputs;
+        for (place, asked) in asked {
+            outputs[place] = match asked {
+                Asked::Along(other) => moving[other].du,
+                // That of a contact is a force of its own.
+                Asked::Reaction(equation) => {
+                    self.reaction(&equation).map_or(0.0, |place| motion.reactions[place])
+                }
+            };
+        }
+        outputs
     }
 
     /// The rates of a point along the motion at `x'' = 0`.

@@ -31,8 +31,8 @@ struct Text {
     named: Vec<String>,
     /// The states beside the motion.
     states: Vec<String>,
-    /// Equations of one component, and contacts without friction: what may press on a grip.
-    pressing: Vec<String>,
+    /// The equations of one component.
+    equations: Vec<String>,
     /// Whether every function has one formula everywhere.
     one_formula: bool,
 }
@@ -235,7 +235,7 @@ impl Text {
         let (a, b) =
             (self.free[draw.below(self.free.len())].clone(), self.free[draw.below(self.free.len())].clone());
         let (name, number) = (self.fresh("c"), draw.pick(&NUMBERS));
-        self.pressing.push(name.clone());
+        self.equations.push(name.clone());
         match draw.below(6) {
             0 => self.constraints += &format!("{name}: dot({bound}) = {number}*cos({a})*dot({b}); "),
             1 => {
@@ -315,6 +315,32 @@ impl Text {
             {
                 return found;
             }
+        }
+    }
+
+    /// Outputs that depend on accelerations and reactions: the rate of another output, and the reaction of an equation. They are drawn apart, so
+    /// that everything else is drawn as without them.
+    fn asked(&mut self, draw: &mut Draw) {
+        let q = self.coordinates[draw.below(self.coordinates.len())].clone();
+        let number = draw.pick(&NUMBERS);
+        if draw.once_in(2) {
+            let moving = match (draw.below(3), self.rigid.last(), self.named.last()) {
+                (0, Some((body, origin)), _) => {
+                    format!(
+                        "{body}.velocity_at({origin} + vec({q}, 0, {number})) + {body}.angular_velocity/3"
+                    )
+                }
+                (1, _, Some(parameter)) => format!("{parameter}*cos(t) - {q}*dot({q})"),
+                _ => format!("dot({q})*({})", self.smooth(draw)),
+            };
+            self.outputs += &format!("moving = {moving};\nmoving_along = dot({moving});\n");
+        }
+        // What a reaction of `|q| = 1` is depends on what `T` is off it, and so may others beside it.
+        if !self.holonomic.contains("length")
+            && let Some(equation) = self.equations.last()
+            && draw.once_in(2)
+        {
+            self.outputs += &format!("{equation}_reaction = reaction({equation});\n");
         }
     }
 
@@ -444,6 +470,7 @@ fn written(seed: u64, parts: Parts) -> String {
         Parts::Motion | Parts::Functions => Default::default(),
         _ => text.contacts(&mut Draw::new(seed.rotate_left(51))),
     };
+    text.asked(&mut Draw::new(seed.rotate_left(33)));
     let resets = if parts == Parts::ContactsAndResets { resets } else { String::new() };
     // Every coordinate has some inertia.
     let sluggish: Vec<String> = text.coordinates.iter().map(|q| format!("dot({q})^2/20")).collect();

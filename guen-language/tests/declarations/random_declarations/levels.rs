@@ -136,6 +136,7 @@ fn looked_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
                 .unwrap_or_default()
             };
             let meaning = declared.meaning(&point);
+            let outputs = declared.outputs(&point, &reference);
             let all: Vec<f64> = (declared.velocities.iter().map(|v| point[*v]))
                 .chain(reference.accelerations.iter().copied())
                 .chain(meaning.state_rates.iter().copied())
@@ -151,8 +152,9 @@ fn looked_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
             compare(function::RHS, run(&mut lost, function::RHS), expected, unit);
             if !selection.outputs.is_empty() {
                 let wanted = selection.outputs.iter().flat_map(|o| &model.outputs[*o].components);
-                let wanted: Vec<f64> = wanted.map(|c| meaning.outputs[*c]).collect();
+                let wanted: Vec<f64> = wanted.map(|c| outputs[*c]).collect();
                 let size = wanted.iter().fold(1.0_f64, |most, e| most.max(e.abs()));
+                let size = if meaning.asked.is_empty() { size } else { size.max(unit * reference.condition) };
                 compare(function::OUTPUTS, run(&mut lost, function::OUTPUTS), wanted, size);
             }
             if selection.energy {

@@ -28,7 +28,10 @@ pub struct Meaning<R> {
     pub force_function: R,
     /// Forces and what they act along.
     pub works: Vec<(R, R)>,
+    /// The components of the outputs; those that depend on accelerations are not numbers.
     pub outputs: Vec<R>,
+    /// What the latter are.
+    pub asked: Vec<(usize, Asked)>,
     /// The rates of the states beside the motion.
     pub state_rates: Vec<R>,
     /// The functions of the switches.
@@ -40,6 +43,7 @@ pub struct Meaning<R> {
 
 /// A contact, grip or latch; zero, or one for the condition of closing, for what is not written.
 pub struct Touch<R> {
+    pub name: String,
     pub gap: R,
     has_gap: bool,
     /// The velocities that vanish where it holds.
@@ -59,6 +63,15 @@ impl<R> Touch<R> {
     pub fn slips(&self) -> &[R] {
         &self.rows[usize::from(self.has_gap)..]
     }
+}
+
+/// An output that depends on accelerations.
+#[derive(Clone)]
+pub enum Asked {
+    /// The rate of the component of another one.
+    Along(usize),
+    /// The reaction of an equation.
+    Reaction(String),
 }
 
 /// Why there is no number.
@@ -88,6 +101,7 @@ impl<R: Analytic> Meaning<R> {
             force_function: nothing,
             works: Vec::new(),
             outputs: Vec::new(),
+            asked: Vec::new(),
             state_rates: Vec::new(),
             switches: Vec::new(),
             contacts: Vec::new(),
@@ -203,6 +217,9 @@ impl<R: Analytic> Meaning<R> {
             }
             Item::Outputs(section) => {
                 for output in &section.entries {
+                    if self.asks(&output.name.text) {
+                        continue;
+                    }
                     let value = self.value(&output.value)?;
                     self.outputs.extend(components(&value)?.into_iter().map(|e| e.re));
                     self.names.insert(output.name.text.clone(), value);
@@ -237,6 +254,32 @@ impl<R: Analytic> Meaning<R> {
             Item::Component(_) | Item::Use(_) | Item::Argument(_) => unreachable!("unfolded"),
         }
         Ok(())
+    }
+
+    /// Whether an output depends on accelerations, by its name.
+    fn asks(&mut self, name: &str) -> bool {
+        let first = self.outputs.len();
+        if name == "moving_along" {
+            let count = if matches!(self.names["moving"], Value::Vector(_)) { 3 } else { 1 };
+            self.asked.extend((first..first + count).map(|place| (place, Asked::Along(place - count))));
+            self.outputs.resize(first + count, R::constant(f64::NAN));
+            return true;
+        }
+        let Some(equation) = name.strip_suffix("_reaction") else { return false };
+        self.asked.push((first, Asked::Reaction(equation.to_owned())));
+        self.outputs.push(R::constant(f64::NAN));
+        true
+    }
+
+    /// The contact whose gap a row is the rate of, by the row's place among all.
+    pub fn contact_of_row(&self, row: usize) -> Option<&String> {
+        let mut first = 0;
+        let gaps = self.contacts.iter().map(|touch| {
+            first += touch.rows.len();
+            (first - touch.rows.len(), touch)
+        });
+        let mut gaps = gaps.filter(|(_, touch)| touch.has_gap);
+        gaps.find(|(first, _)| *first == row).map(|(_, touch)| &touch.name)
     }
 
     fn touch(&mut self, contact: &Contact) -> Result<Touch<R>, Missing> {
@@ -282,6 +325,7 @@ impl<R: Analytic> Meaning<R> {
             (friction, stiction) = (R::constant(0.0), R::constant(0.0));
         }
         Ok(Touch {
+            name: name.clone(),
             gap,
             has_gap,
             rows,
@@ -469,6 +513,7 @@ impl<R: Analytic> Meaning<R> {
             force_function: nothing,
             works: Vec::new(),
             outputs: Vec::new(),
+            asked: Vec::new(),
             state_rates: Vec::new(),
             switches: Vec::new(),
             contacts: Vec::new(),

@@ -152,9 +152,11 @@ fn difference(text: &str, derived: &Derived<'_>, seed: u64) -> (f64, usize) {
         for (name, energy) in energies {
             compare(name, program(name), vec![energy], 1.0 + energy.abs());
         }
-        if !meaning.outputs.is_empty() {
-            let size = meaning.outputs.iter().fold(1.0_f64, |most, e| most.max(e.abs()));
-            compare("outputs", program(function::OUTPUTS), meaning.outputs, size);
+        let outputs = declared.outputs(&point, &reference);
+        if !outputs.is_empty() {
+            let size = outputs.iter().fold(1.0_f64, |most, e| most.max(e.abs()));
+            let size = if meaning.asked.is_empty() { size } else { size.max(unit * reference.condition) };
+            compare("outputs", program(function::OUTPUTS), outputs, size);
         }
         // The reaction of `|q| = 1` depends on what `T` is off it, and so may others beside it.
         if model.quaternions.is_empty() {

@@ -14,13 +14,18 @@ impl Text {
         self.forces += &format!("(1/2 - {})*{q} along dot({q}); ", self.on());
         let mut leading = self.free.clone();
         let mut contacts = String::new();
+        // What may press on a grip.
+        let mut pressing: Vec<String> = Vec::new();
         for (kind, most) in [("wheel", 3), ("stop", 1), ("brake", 2), ("lock", 1)] {
             if leading.is_empty() || draw.once_in(3) {
                 continue;
             }
             let rows = leading.split_off(leading.len() - most.min(leading.len()));
             contacts += &match kind {
-                "brake" => self.grip(draw, &rows),
+                "brake" => {
+                    pressing.extend(self.equations.iter().cloned());
+                    self.grip(draw, &rows, &pressing)
+                }
                 "lock" => {
                     let (function, when, release) =
                         (self.gap(draw, &rows[0]), self.signal(draw), self.signal(draw));
@@ -29,7 +34,7 @@ impl Text {
                 _ => self.touch(draw, kind, &rows),
             };
             if kind == "stop" {
-                self.pressing.push(kind.to_owned());
+                pressing.push(kind.to_owned());
             }
         }
         let resets: String =
@@ -55,7 +60,7 @@ impl Text {
     }
 
     /// A function without kinks, at which velocities would jump.
-    fn smooth(&mut self, draw: &mut Draw) -> String {
+    pub(super) fn smooth(&mut self, draw: &mut Draw) -> String {
         loop {
             let function = self.function(draw, 1);
             if is_smooth(&function) {
@@ -112,7 +117,10 @@ impl Text {
 
     fn touch(&mut self, draw: &mut Draw, name: &str, rows: &[String]) -> String {
         let mut clauses = format!("{name}: gap = {}", self.gap(draw, &rows[0]));
-        self.outputs += &format!("{name}_gap = 3*gap({name});\n");
+        // Of a rough contact it is a vector.
+        let normal = if rows.len() > 1 { ".x" } else { "" };
+        self.outputs +=
+            &format!("{name}_gap = 3*gap({name});\n{name}_reaction = reaction({name}){normal};\n");
         if let along @ [_, ..] = &rows[1..] {
             let q = self.coordinates[0].clone();
             let slip = self.velocities(draw, along);
@@ -133,15 +141,15 @@ impl Text {
         clauses + ";\n"
     }
 
-    fn grip(&mut self, draw: &mut Draw, rows: &[String]) -> String {
+    fn grip(&mut self, draw: &mut Draw, rows: &[String], pressing: &[String]) -> String {
         let velocity = self.velocities(draw, rows);
         let held = self.inputs.first().or(self.states.last()).unwrap_or(&self.coordinates[0]).clone();
         let q = self.coordinates[draw.below(self.coordinates.len())].clone();
         let limit = if draw.once_in(2) {
-            if self.pressing.is_empty() {
-                self.guide(draw);
-            }
-            let row = &self.pressing[draw.below(self.pressing.len())];
+            let row = match pressing {
+                [] => self.guide(draw),
+                all => all[draw.below(all.len())].clone(),
+            };
             format!("friction = 1/5 + 1/(3 + speed), load = reaction({row})")
         } else if draw.once_in(2) {
             format!("limit = 2 + {held}^2 + {}*dot({q})^2", self.on())
@@ -152,12 +160,13 @@ impl Text {
     }
 
     /// A further coordinate that a constraint moves.
-    fn guide(&mut self, draw: &mut Draw) {
+    fn guide(&mut self, draw: &mut Draw) -> String {
         let q = self.coordinates[draw.below(self.coordinates.len())].clone();
         let (name, bound) = (self.fresh("guide"), self.bound("w"));
         let number = draw.pick(&NUMBERS);
         self.constraints += &format!("{name}: dot({bound}) = {number}*cos({q})*dot({q}) + {q}*t/5; ");
-        self.pressing.push(name);
+        self.equations.push(name.clone());
+        name
     }
 
     fn reset(&mut self, draw: &mut Draw, name: &str) -> String {
