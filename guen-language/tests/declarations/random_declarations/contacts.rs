@@ -221,6 +221,15 @@ pub fn look_at(derived: &Derived<'_>, level: &Level, on: &Declared<'_>, draw: &m
         let places = &selection.variables;
         let pressed = places.iter().filter_map(|place| place.checked_sub(declared.n));
         let rates = places.iter().map(|place| rates[*place]).chain(own);
+        compare(function::FREE_RATES, &values, rates.clone().take(places.len()).collect(), unit);
+        let now = rows(meaning);
+        let largest = now.iter().fold(1.0_f64, |most, row| most.max(row.abs()));
+        compare(function::ROW_RATES, &values, now, largest);
+        // Scenes need no parts of rows that rest.
+        if facts.drifts && level.scene.is_none() {
+            let resting = rows(declared.meaning(&declared.at_rest(&point)));
+            compare(function::ROW_DRIFTS, &values, resting, largest * condition);
+        }
         let responses = responses.iter().flat_map(|response| pressed.clone().map(|place| response[place]));
         seen.loads += loads.len();
         // A reaction is formed along `X_v`, which has the inverse of the forms once more.

@@ -191,6 +191,13 @@ impl<'a> Declared<'a> {
         outputs
     }
 
+    /// The point with all parameters and constraints zero.
+    pub fn at_rest(&self, point: &[f64]) -> Vec<f64> {
+        let mut resting = point.to_vec();
+        self.set_velocities(&mut resting, &vec![0.0; self.degrees]);
+        resting
+    }
+
     /// The rates of a point along the motion at `x'' = 0`.
     pub fn rates(&self, point: &[f64], _accelerations: &[f64]) -> Vec<f64> {
         let mut rates = vec![0.0; point.len()];

@@ -30,6 +30,8 @@ pub struct Meaning<R> {
     pub works: Vec<(R, R)>,
     /// The components of the outputs; those that depend on accelerations are not numbers.
     pub outputs: Vec<R>,
+    /// Centers and orientations of the bodies, row by row, and the positions of the particles.
+    poses: [Vec<R>; 2],
     /// What the latter are.
     pub asked: Vec<(usize, Asked)>,
     /// The rates of the states beside the motion.
@@ -101,6 +103,7 @@ impl<R: Analytic> Meaning<R> {
             force_function: nothing,
             works: Vec::new(),
             outputs: Vec::new(),
+            poses: Default::default(),
             asked: Vec::new(),
             state_rates: Vec::new(),
             switches: Vec::new(),
@@ -176,6 +179,7 @@ impl<R: Analytic> Meaning<R> {
                 for particle in &section.entries {
                     let (mass, position) = (self.scalar(&particle.mass)?, self.vector(&particle.position)?);
                     self.weigh(&mass.re, &position, gravity);
+                    self.poses[1].extend(position.iter().map(|e| e.re.clone()));
                 }
             }
             Item::Bodies(section) => {
@@ -198,6 +202,8 @@ impl<R: Analytic> Meaning<R> {
                         let twice = (0..3).fold(R::constant(0.0), |e, i| e.plus(&own[i].times(&moment[i])));
                         self.kinetic_energy = self.kinetic_energy.plus(&twice.scaled(0.5));
                     }
+                    let center_and_axes = center.iter().chain(orientation.iter().flatten()).flatten();
+                    self.poses[0].extend(center_and_axes.map(|e| e.re.clone()));
                     let body_value = Value::Body(Box::new(Rigid { center, orientation }));
                     self.names.insert(body.name.text.clone(), body_value);
                 }
@@ -254,6 +260,12 @@ impl<R: Analytic> Meaning<R> {
             Item::Component(_) | Item::Use(_) | Item::Argument(_) => unreachable!("unfolded"),
         }
         Ok(())
+    }
+
+    /// Centers and orientations of the bodies, then the positions of the particles.
+    pub fn placed(&self) -> Vec<R> {
+        let [bodies, particles] = &self.poses;
+        bodies.iter().chain(particles).cloned().collect()
     }
 
     /// Whether an output depends on accelerations, by its name.
@@ -513,6 +525,7 @@ impl<R: Analytic> Meaning<R> {
             force_function: nothing,
             works: Vec::new(),
             outputs: Vec::new(),
+            poses: Default::default(),
             asked: Vec::new(),
             state_rates: Vec::new(),
             switches: Vec::new(),

@@ -5,6 +5,7 @@
 //! algebra, the derivation or the optimiser.
 
 mod analytic;
+mod beside;
 mod bodies;
 mod compiled;
 mod components;
