@@ -393,10 +393,16 @@ pub fn with_contacts_of_one_formula(seed: u64) -> String {
     written(seed, Parts::ContactsOfOneFormula)
 }
 
+/// The declaration of a seed with functions of one formula everywhere.
+pub fn of_one_formula(seed: u64) -> String {
+    written(seed, Parts::OneFormula)
+}
+
 /// The sections of a drawn declaration that not every one has.
 #[derive(PartialEq)]
 enum Parts {
     Motion,
+    OneFormula,
     Functions,
     Contacts,
     ContactsOfOneFormula,
@@ -406,7 +412,10 @@ enum Parts {
 fn written(seed: u64, parts: Parts) -> String {
     let mut draw = Draw::new(seed);
     let draw = &mut draw;
-    let mut text = Text { one_formula: parts == Parts::ContactsOfOneFormula, ..Text::default() };
+    let mut text = Text {
+        one_formula: [Parts::OneFormula, Parts::ContactsOfOneFormula].contains(&parts),
+        ..Text::default()
+    };
     let mut poses = vec![if draw.once_in(4) {
         (format!("rot_z({}*t)", draw.pick(&NUMBERS)), "vec(sin(t)/2, 0, 0)".to_owned())
     } else {
@@ -467,7 +476,7 @@ fn written(seed: u64, parts: Parts) -> String {
         Default::default()
     };
     let [switches, contacts, resets] = match parts {
-        Parts::Motion | Parts::Functions => Default::default(),
+        Parts::Motion | Parts::OneFormula | Parts::Functions => Default::default(),
         _ => text.contacts(&mut Draw::new(seed.rotate_left(51))),
     };
     text.asked(&mut Draw::new(seed.rotate_left(33)));

@@ -31,6 +31,7 @@ pub mod printed;
 #[path = "../../../../guen-symbolic/tests/random_systems/scalar.rs"]
 mod scalar;
 mod scenes;
+mod series;
 mod several;
 mod space;
 
