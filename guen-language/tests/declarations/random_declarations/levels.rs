@@ -5,7 +5,7 @@ use guen_language::derive::{Derived, Level, function};
 use guen_symbolic::{ExprId, Role, SymbolId};
 
 use super::draw::Draw;
-use super::{grammar, multipliers, numbers, scenes};
+use super::{beside, grammar, multipliers, numbers, scenes};
 use crate::common::{by_two_threads, derived, evaluated};
 
 /// Largest difference, in units of condition times scale.
@@ -118,7 +118,7 @@ fn looked_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
                     .chain(selection.constants.iter().map(|c| symbol(model.constants[*c].symbol)))
                     .collect();
             let mut lost = None;
-            let run = |lost: &mut Option<String>, name: &str| {
+            let moved = |lost: &mut Option<String>, name: &str, by: &dyn Fn(SymbolId) -> f64| {
                 let lost = std::cell::RefCell::new(lost);
                 evaluated(level, name, |symbol| {
                     if let Some(own) =
@@ -131,10 +131,11 @@ fn looked_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
                         **lost.borrow_mut() = Some(format!("`{name}` reads `{}`, which left", info.name));
                         return f64::NAN;
                     }
-                    value_of(symbol)
+                    value_of(symbol) + by(symbol)
                 })
                 .unwrap_or_default()
             };
+            let run = |lost: &mut Option<String>, name: &str| moved(lost, name, &|_| 0.0);
             let meaning = declared.meaning(&point);
             let outputs = declared.outputs(&point, &reference);
             let all: Vec<f64> = (declared.velocities.iter().map(|v| point[*v]))
@@ -171,6 +172,16 @@ fn looked_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
                     wanted,
                     unit * reference.condition,
                 );
+            }
+            for (name, of, pattern) in beside::jacobians(level) {
+                let at = |own: SymbolId, step: f64| {
+                    moved(&mut None, of, &|symbol| if symbol == own { step } else { 0.0 })
+                };
+                let quotients = beside::quotients(&beside::columns(model, level), &at);
+                let largest = quotients.iter().flatten().fold(unit, |most, e| most.max(e.abs()));
+                let found = beside::matrix(pattern, &run(&mut lost, name), &quotients);
+                let size = largest * reference.condition * beside::CLOSE / ROUNDING;
+                compare(name, found, quotients.concat(), size);
             }
             for name in [function::DOMAIN, function::PIVOTS] {
                 if run(&mut lost, name).iter().any(|value| !value.is_finite()) {
