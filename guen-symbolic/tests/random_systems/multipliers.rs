@@ -86,7 +86,8 @@ pub fn pushed(system: &Declared, point: &[f64], force: &[f64]) -> Option<Multipl
     if condition.is_nan() || condition > LARGEST_CONDITION {
         return None;
     }
-    let solution = matrix.full_piv_lu().solve(&right)?;
+    // Outside of the domain of a function there is no motion.
+    let solution = matrix.full_piv_lu().solve(&right).filter(|found| found.iter().all(|e| e.is_finite()))?;
     let reactions: Vec<f64> = solution.rows(n + l, m).iter().copied().collect();
     let covector = (0..n)
         .map(|i| reactions.iter().zip(&forms[l..]).map(|(lambda, row)| lambda * row[i].re).sum())
