@@ -122,7 +122,8 @@ fn normalized(g: &mut Graph, e: ExprId, limits: &Limits, flat: bool) -> Result<E
     if flat { rebuild::expanded(g, &ring, &f) } else { finish(g, &ring, &f, limits, DOUBLINGS) }
 }
 
-/// The expression of a fraction; half angles that occur in pairs become whole ones first, at most so many times.
+/// The expression of a fraction; half angles that occur in pairs become whole ones first, at most so many times. A divisor `cos^2` of
+/// a half angle stays: `1 + cos` of the whole one has fewer digits where both are nearly zero.
 fn finish(g: &mut Graph, ring: &Ring, f: &Fraction, limits: &Limits, doublings: u32) -> Result<ExprId> {
     let mut doubled = false;
     let mut replaced: Vec<Option<(ExprId, ExprId, ExprId)>> = vec![None; ring.angles.len()];
@@ -133,7 +134,7 @@ fn finish(g: &mut Graph, ring: &Ring, f: &Fraction, limits: &Limits, doublings: 
         let occurs = |p: &Poly| p.max_exponent(angle.sin) + p.max_exponent(angle.cos) > 0;
         let polys = || f.den.polys.keys().chain([&f.num]);
         let den = f.den.mono.exponent(angle.sin) + f.den.mono.exponent(angle.cos) > 0;
-        if parity(&f.den.mono) && polys().all(even) && (den || polys().any(occurs)) {
+        if !den && polys().all(even) && polys().any(occurs) {
             let (s, c) = g.sin_cos(double);
             // sin^2, cos^2 and sin cos of the half angle.
             let one = g.one();

@@ -253,43 +253,8 @@ impl Ring {
         if rest.is_one() {
             return Ok(result);
         }
-        if let Some((conjugate, norm)) = self.monomial_norm(&rest)? {
-            let inverse = self.inverse_of(&norm, depth + 1)?;
-            result.num = self.times(&result.num, &conjugate)?;
-            return self.product(&result, &inverse);
-        }
         *result.den.polys.entry(rest).or_default() += 1;
         Ok(result)
-    }
-
-    /// A conjugate with which a sum becomes a monomial: `(1 + cos)(1 - cos) = sin^2`.
-    fn monomial_norm(&self, p: &Poly) -> Result<Option<(Poly, Poly)>> {
-        // Longer sums have no such norm in practice.
-        const NORM_TERMS: usize = 4;
-        if p.len() > NORM_TERMS {
-            return Ok(None);
-        }
-        let roots = self.relations.iter().filter(|relation| relation.order == 2).map(|r| r.generator);
-        for generator in roots.chain(self.angles.iter().map(|angle| angle.cos)) {
-            if p.max_exponent(generator) > 0 {
-                let conjugate = p.conjugate(generator);
-                let norm = self.times(p, &conjugate)?;
-                if !norm.is_zero() && self.extract(&norm)?.2.is_one() {
-                    return Ok(Some((conjugate, norm)));
-                }
-            }
-        }
-        for angle in &self.angles {
-            if p.max_exponent(angle.sin) > 0 {
-                let conjugate = self.in_cosines(p, angle)?.conjugate(angle.sin);
-                let conjugate = self.reduce(conjugate)?;
-                let norm = self.times(p, &conjugate)?;
-                if !norm.is_zero() && self.extract(&norm)?.2.is_one() {
-                    return Ok(Some((conjugate, norm)));
-                }
-            }
-        }
-        Ok(None)
     }
 
     pub(super) fn product(&self, a: &Fraction, b: &Fraction) -> Result<Fraction> {

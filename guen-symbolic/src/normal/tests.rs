@@ -264,13 +264,22 @@ fn meets() {
         ("cos(2*x)", "1 - 2*sin(x)^2"),
         ("1/(A + C) + 1/(A - C)", "2*A/((A - C)*(A + C))"),
         ("cot(x) + tan(x)", "1/(sin(x)*cos(x))"),
-        ("1/(1 + cos(x))", "(1 - cos(x))/sin(x)^2"),
     ] {
         let (e, f) = (read(&mut g, a), read(&mut g, b));
         let limits = Limits::default();
         let (e, f) = (normal_form(&mut g, e, &limits).unwrap(), normal_form(&mut g, f, &limits).unwrap());
         assert_eq!(e, f, "{a} and {b}: {} and {}", g.text(e), g.text(f));
     }
+}
+
+/// `(1 - cos x)/sin^2 x` for `1/(1 + cos x)` would divide zero by zero at `x = 0`.
+#[test]
+fn divisors_stay_those_that_were_written() {
+    check("1/(1 + cos(x))", "1/(cos(x) + 1)");
+    check("1/(1 - sin(x)) + 1/(1 + sin(x))", "-2/((sin(x) + 1)*(sin(x) - 1))");
+    check("sin(x)^2/(1 - cos(x))", "cos(x) + 1");
+    check("tan(x/4)", "tan(1/4*x)");
+    check("1/(sqrt(x) - 1)", "1/(sqrt(x) - 1)");
 }
 
 #[test]
@@ -379,6 +388,36 @@ fn random_expressions_stay_equal() {
         }
     }
     assert!(found > rounds() * 2 / 3, "only {found} normal forms");
+}
+
+/// Where an expression is regular, its normal form is, at zeros and ones of variables, too, which no random point meets.
+#[test]
+fn regular_points_stay_regular() {
+    let mut random = Random(20_261);
+    let (mut found, mut left_out) = (0, 0);
+    for round in 0..rounds() {
+        let mut g = world();
+        let e = random_expression(&mut g, &mut random, 2 + round % 8);
+        let limits = Limits { terms: 100, steps: 5_000, ..Limits::default() };
+        let Some(n) = normal_form(&mut g, e, &limits) else { continue };
+        for _ in 0..8 {
+            let point: Vec<f64> = g.symbols().map(|_| [0.0, 0.0, 1.0, -1.0, 0.5][random.below(5)]).collect();
+            let beside = random.point(point.len());
+            let beside: Vec<f64> = point.iter().zip(&beside).map(|(x, y)| x + 1e-7 * y).collect();
+            let (u, near) = (value(&g, e, &point), value(&g, e, &beside));
+            // The expression itself has to be regular here, with all that it is made of.
+            let is_regular =
+                g.reachable(&[e], |_| false).into_iter().all(|part| value(&g, part, &point).is_finite());
+            if !(is_regular && u.abs() < 1e3 && (u - near).abs() < 1e-4) {
+                left_out += 1;
+                continue;
+            }
+            let v = value(&g, n, &point);
+            assert!((u - v).abs() <= 1e-7 * (1.0 + u.abs()), "{} = {u}\n{} = {v}", g.text(e), g.text(n));
+            found += 1;
+        }
+    }
+    assert!(found > left_out, "only {found} of {} points", found + left_out);
 }
 
 fn splitmix(value: u64) -> u64 {
