@@ -28,6 +28,7 @@ mod poles;
 mod random_declarations;
 mod rates;
 mod redundant;
+mod regular;
 mod resets_of_scenes;
 mod restricted;
 mod rows_of_bars;

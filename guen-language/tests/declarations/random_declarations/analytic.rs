@@ -41,11 +41,16 @@ pub trait Analytic: Scalar {
         }
     }
 
-    /// `atan2(self, x)`: the derivatives are those of `atan(self/x)`.
+    /// `atan2(self, x)`: the derivatives are those of `atan(self/x)`, and of `-atan(x/self)`.
     fn arc_tangent_2(&self, x: &Self) -> Self {
-        let quotient = self.times(&x.reciprocal());
-        let turn = self.value().atan2(x.value()) - quotient.value().atan();
-        quotient.applied(&arc_tangent, 0).plus(&Self::constant(turn))
+        let (quotient, sign) = if self.value().abs() < x.value().abs() {
+            (self.times(&x.reciprocal()), 1.0)
+        } else {
+            (x.times(&self.reciprocal()), -1.0)
+        };
+        let angle = quotient.applied(&arc_tangent, 0).times(&Self::constant(sign));
+        let turn = self.value().atan2(x.value()) - angle.value();
+        angle.plus(&Self::constant(turn))
     }
 }
 

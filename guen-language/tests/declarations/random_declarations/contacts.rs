@@ -133,7 +133,6 @@ pub fn look_at(derived: &Derived<'_>, level: &Level, on: &Declared<'_>, draw: &m
         let Some((point, _)) = on.state_of(draw, given) else { continue };
         let Some(motion) = Motion::new(declared, &point) else { continue };
         let Motion { rates, own, responses, coefficients, loads, outputs, unit, condition } = motion;
-        seen.states += 1;
         let meaning = declared.meaning(&point);
         let parameters = &model.forms[..model.mechanics.forms.degrees];
         let etas: Vec<f64> = parameters.iter().map(|form| meaning.forms[&form.name]).collect();
@@ -160,6 +159,11 @@ pub fn look_at(derived: &Derived<'_>, level: &Level, on: &Declared<'_>, draw: &m
         expected.extend(facts.resets.iter().map(|own| meaning.resets[own.reset].0));
         // The functions of branches have no meaning of their own: what they decide is seen in the motion.
         let branches = signals.get(expected.len()..).unwrap_or_default();
+        // Where two branches meet, either may be taken, and their slopes differ.
+        if branches.iter().any(|function| function.abs() < 1e-9) {
+            continue;
+        }
+        seen.states += 1;
         let decided = facts.branches.iter().zip(branches);
         values.extend(decided.map(|(branch, function)| (symbol(branch.symbol), is_on(*function))));
         expected.extend(branches);

@@ -71,7 +71,18 @@ impl<'a> Declared<'a> {
         self.closed(draw, point)
     }
 
-    /// The same at given constants and inputs.
+    /// The same, and every third time with one coordinate at zero or about, where a quotient that was rewritten may be zero by zero: one
+    /// alone, because branches of functions meet where two are equal.
+    pub fn state_with_zero(&self, draw: &mut Draw) -> Option<(Vec<f64>, Vec<f64>)> {
+        let mut point = self.start(draw);
+        point.extend(self.held.iter().map(|_| draw.real(0.5, 1.5)));
+        if draw.once_in(3) {
+            point[1 + draw.below(self.n)] = 0.0;
+        }
+        self.closed(draw, point)
+    }
+
+    /// A random state at given constants and inputs.
     pub fn state_of(&self, draw: &mut Draw, held: Vec<f64>) -> Option<(Vec<f64>, Vec<f64>)> {
         let point = [self.start(draw), held].concat();
         self.closed(draw, point)
@@ -93,7 +104,9 @@ impl<'a> Declared<'a> {
             if largest <= 1e-14 {
                 let etas: Vec<f64> = (0..self.degrees).map(|_| draw.real(-1.5, 1.5)).collect();
                 self.set_velocities(&mut point, &etas);
-                return Some((point, etas));
+                // At the change of a switch rounding decides whether it is on.
+                let switches = self.meaning(&point).switches;
+                return switches.iter().all(|function| function.abs() > 1e-9).then_some((point, etas));
             }
             let mut slopes = DMatrix::zeros(left.len(), self.n);
             for (i, x) in self.x.iter().enumerate() {
@@ -119,7 +132,8 @@ impl<'a> Declared<'a> {
         let wanted = etas.iter().copied().chain(std::iter::repeat(0.0));
         let right = forms.iter().zip(wanted).map(|(row, eta)| vec![eta - row[self.n]]).collect();
         for (v, value) in self.velocities.iter().zip(solve(matrix, right)) {
-            point[*v] = value[0];
+            // Rounding gives what is zero a sign, and with it another entire part.
+            point[*v] = if value[0].abs() < 1e-14 { 0.0 } else { value[0] };
         }
     }
 

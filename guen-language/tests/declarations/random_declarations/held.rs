@@ -38,7 +38,7 @@ pub fn look_at(
         if seen.states == STATES {
             break;
         }
-        let Some((point, _)) = declared.state(draw) else { continue };
+        let Some((point, _)) = declared.state_with_zero(draw) else { continue };
         let Some((reference, unit)) = mode.motion(&declared, &point) else { continue };
         if unit > LARGEST {
             continue;

@@ -113,7 +113,7 @@ fn difference(text: &str, derived: &Derived<'_>, seed: u64) -> (f64, usize) {
     let mut draw = Draw::new(!seed);
     let (mut worst, mut states) = (0.0_f64, 0);
     for _ in 0..STATES {
-        let Some((point, etas)) = declared.state(&mut draw) else { continue };
+        let Some((point, etas)) = declared.state_with_zero(&mut draw) else { continue };
         let Some(reference) = multipliers::solve(declared, &point) else { continue };
         let unit = reference.condition * reference.scale;
         if unit > LARGEST {

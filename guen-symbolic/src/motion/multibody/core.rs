@@ -1,4 +1,7 @@
 //! The core: forms pulled back to parameters and unknowns, and solved for the unknowns.
+//!
+//! No form is divided by a coefficient that may vanish: forms in which no other is left are solved together, by what vanishes only
+//! where they are dependent.
 
 use std::collections::BTreeMap;
 
@@ -9,20 +12,29 @@ use super::relations::{Linear, definition, link, order};
 use super::tree::{Tree, Turn, plus};
 use super::variables::{Var, Variables};
 use crate::numbering::{Num, Numbering};
+use crate::zero::field;
 
 /// A combination of parameters and unknowns.
 type Combination = BTreeMap<Var, Num>;
 
-/// A step of the elimination: a form solved for an unknown.
-struct Step {
-    row: usize,
-    unknown: usize,
-    /// The reciprocal of the divisor.
-    inverse: Num,
-    /// Unknowns that are solved for later, with what they contribute.
-    later: Vec<(usize, Num)>,
-    /// Forms that have the unknown too, with its coefficients there.
-    others: Vec<(usize, Num)>,
+/// The largest number of forms that are solved together by their determinant.
+const DETERMINANT_SIZE: usize = 3;
+
+/// A step of the elimination.
+enum Step {
+    /// A form solved for an unknown.
+    One {
+        row: usize,
+        unknown: usize,
+        /// The reciprocal of the divisor.
+        inverse: Num,
+        /// Unknowns that are solved for later, with what they contribute.
+        later: Vec<(usize, Num)>,
+        /// Forms that have the unknown too, with its coefficients there.
+        others: Vec<(usize, Num)>,
+    },
+    /// Forms solved together for unknowns that no other form has, by the inverse of their matrix.
+    Together { rows: Vec<usize>, unknowns: Vec<usize>, inverse: Vec<Vec<Num>> },
 }
 
 /// The unknowns of a core as functions of the parameters.
@@ -33,8 +45,6 @@ pub(super) struct Core {
     pub(super) solutions: Vec<Linear>,
     /// The value of each unknown where all parameters are zero.
     pub(super) offsets: Vec<Num>,
-    /// The divisors of the elimination.
-    pub(super) pivots: Vec<Num>,
 }
 
 impl Core {
@@ -63,14 +73,23 @@ impl Core {
         let mut open_rows: Vec<usize> = (0..count).collect();
         let mut open: Vec<usize> = (0..count).collect();
         while !open.is_empty() {
-            let (row, unknown) = choose(planner, &rows, &unknowns, &open_rows, &open)?;
+            let Choice { row, unknown, is_safe } = choose(planner, &rows, &unknowns, &open_rows, &open)?;
+            if !is_safe
+                && let Some(step) = together(planner.numbers, &rows, &unknowns, (&open_rows, &open), unknown)
+            {
+                core.solve_together(planner.numbers, &rows, &unknowns, &step);
+                let Step::Together { rows, unknowns, .. } = &step else { return None };
+                open_rows.retain(|r| !rows.contains(r));
+                open.retain(|u| !unknowns.contains(u));
+                core.steps.push(step);
+                continue;
+            }
             open_rows.retain(|r| *r != row);
             open.retain(|u| *u != unknown);
             let numbers = &mut *planner.numbers;
             let var = unknowns[unknown];
             let (mut combination, offset) = rows[row].clone();
             let pivot = combination.remove(&var)?;
-            core.pivots.push(pivot);
             let inverse = numbers.div(Num::ONE, pivot);
             let scaled: Vec<(Var, Num)> =
                 combination.iter().map(|(other, c)| (*other, numbers.mul(*c, inverse).neg())).collect();
@@ -92,14 +111,15 @@ impl Core {
                 .collect();
             core.solutions[unknown] = scaled;
             core.offsets[unknown] = scaled_offset;
-            core.steps.push(Step { row, unknown, inverse, later, others });
+            core.steps.push(Step::One { row, unknown, inverse, later, others });
         }
         // Unknowns that were solved for later are put in.
         let numbers = &mut *planner.numbers;
         for step in core.steps.iter().rev() {
+            let Step::One { unknown, .. } = step else { continue };
             let mut combination = Combination::new();
-            let mut offset = core.offsets[step.unknown];
-            for (var, c) in core.solutions[step.unknown].clone() {
+            let mut offset = core.offsets[*unknown];
+            for (var, c) in core.solutions[*unknown].clone() {
                 match unknowns.iter().position(|u| *u == var) {
                     None => add(numbers, &mut combination, var, c),
                     Some(other) => {
@@ -112,31 +132,78 @@ impl Core {
                     }
                 }
             }
-            core.solutions[step.unknown] = combination.into_iter().collect();
-            core.offsets[step.unknown] = offset;
+            core.solutions[*unknown] = combination.into_iter().collect();
+            core.offsets[*unknown] = offset;
         }
         planner.numbers.is_sound().then_some(core)
+    }
+
+    /// The unknowns of forms that are solved together.
+    fn solve_together(
+        &mut self,
+        numbers: &mut Numbering,
+        rows: &[(Combination, Num)],
+        unknowns: &[Var],
+        step: &Step,
+    ) {
+        let Step::Together { rows: of, unknowns: found, inverse } = step else { return };
+        for (unknown, inverse) in found.iter().zip(inverse) {
+            let mut combination = Combination::new();
+            let mut offset = Num::ZERO;
+            for (row, c) in of.iter().zip(inverse) {
+                let c = c.neg();
+                let (terms, own) = &rows[*row];
+                for (var, k) in terms.iter().filter(|(var, _)| !unknowns.contains(var)) {
+                    let part = numbers.mul(c, *k);
+                    add(numbers, &mut combination, *var, part);
+                }
+                let part = numbers.mul(c, *own);
+                offset = numbers.add(offset, part);
+            }
+            self.solutions[*unknown] = combination.into_iter().collect();
+            self.offsets[*unknown] = offset;
+        }
     }
 
     /// The unknowns of the same forms with other values without unknowns, and without parameters.
     pub(super) fn solve(&self, numbers: &mut Numbering, mut right: Vec<Num>) -> Vec<Num> {
         let mut found = vec![Num::ZERO; self.solutions.len()];
         for step in &self.steps {
-            let own = numbers.mul(right[step.row], step.inverse).neg();
-            for (other, c) in &step.others {
-                let part = numbers.mul(*c, own);
-                right[*other] = numbers.add(right[*other], part);
+            match step {
+                Step::One { row, unknown, inverse, others, .. } => {
+                    let own = numbers.mul(right[*row], *inverse).neg();
+                    for (other, c) in others {
+                        let part = numbers.mul(*c, own);
+                        right[*other] = numbers.add(right[*other], part);
+                    }
+                    found[*unknown] = own;
+                }
+                Step::Together { rows, unknowns, inverse } => {
+                    let sides: Vec<Num> = rows.iter().map(|row| right[*row]).collect();
+                    for (unknown, inverse) in unknowns.iter().zip(inverse) {
+                        found[*unknown] = dot(numbers, inverse, &sides).neg();
+                    }
+                }
             }
-            found[step.unknown] = own;
         }
         for step in self.steps.iter().rev() {
-            for (other, c) in &step.later {
+            let Step::One { unknown, later, .. } = step else { continue };
+            for (other, c) in later {
                 let part = numbers.mul(*c, found[*other]);
-                found[step.unknown] = numbers.add(found[step.unknown], part);
+                found[*unknown] = numbers.add(found[*unknown], part);
             }
         }
         found
     }
+}
+
+fn dot(numbers: &mut Numbering, a: &[Num], b: &[Num]) -> Num {
+    let mut sum = Num::ZERO;
+    for (a, b) in a.iter().zip(b) {
+        let product = numbers.mul(*a, *b);
+        sum = numbers.add(sum, product);
+    }
+    sum
 }
 
 /// Numbers the moments of what acts at a point along a direction, about all joints on the way to the root: about the axis of a joint
@@ -211,6 +278,13 @@ fn pulled(
     (combination, offset)
 }
 
+/// A form and an unknown to eliminate, and whether its coefficient vanishes at no state that was looked at.
+struct Choice {
+    row: usize,
+    unknown: usize,
+    is_safe: bool,
+}
+
 /// The form and the unknown to eliminate: of those whose coefficient vanishes at no state that was looked at the one with the
 /// fewest other unknowns.
 fn choose(
@@ -219,7 +293,7 @@ fn choose(
     unknowns: &[Var],
     open_rows: &[usize],
     open: &[usize],
-) -> Option<(usize, usize)> {
+) -> Option<Choice> {
     let mut candidates: Vec<(bool, usize, usize, usize, usize)> = Vec::new();
     for row in open_rows {
         let combination = &rows[*row].0;
@@ -232,5 +306,89 @@ fn choose(
         }
     }
     candidates.sort_unstable();
-    candidates.first().map(|(.., row, unknown)| (*row, *unknown))
+    candidates.first().map(|(is_unsafe, .., row, unknown)| Choice {
+        row: *row,
+        unknown: *unknown,
+        is_safe: !is_unsafe,
+    })
+}
+
+/// Solves the forms that hang together with an unknown: orthogonal ones by the squares of their lengths, few others by their
+/// determinant; `None` for a single form, and for many.
+fn together(
+    numbers: &mut Numbering,
+    rows: &[(Combination, Num)],
+    unknowns: &[Var],
+    (open_rows, open): (&[usize], &[usize]),
+    first: usize,
+) -> Option<Step> {
+    let has = |row: usize, unknown: usize| rows[row].0.contains_key(&unknowns[unknown]);
+    let (mut of, mut found) = (Vec::new(), vec![first]);
+    loop {
+        let row = open_rows.iter().find(|row| !of.contains(*row) && found.iter().any(|u| has(**row, *u)));
+        let unknown = open.iter().find(|u| !found.contains(*u) && of.iter().any(|row| has(*row, **u)));
+        of.extend(row);
+        found.extend(unknown);
+        if row.is_none() && unknown.is_none() {
+            break;
+        }
+    }
+    if of.len() != found.len() || of.len() == 1 {
+        return None;
+    }
+    of.sort_unstable();
+    found.sort_unstable();
+    let entry =
+        |row: &usize, unknown: &usize| rows[*row].0.get(&unknowns[*unknown]).copied().unwrap_or(Num::ZERO);
+    let matrix: Vec<Vec<Num>> =
+        of.iter().map(|row| found.iter().map(|unknown| entry(row, unknown)).collect()).collect();
+    let inverse = match orthogonal_inverse(numbers, &matrix) {
+        Some(inverse) => inverse,
+        None if of.len() <= DETERMINANT_SIZE => inverse_by_determinant(numbers, &matrix),
+        None => return None,
+    };
+    Some(Step::Together { rows: of, unknowns: found, inverse })
+}
+
+/// `K^-1 = K^T D^-1` for orthogonal rows, `D` the squares of their lengths.
+fn orthogonal_inverse(numbers: &mut Numbering, matrix: &[Vec<Num>]) -> Option<Vec<Vec<Num>>> {
+    let residues: Vec<Vec<u64>> =
+        matrix.iter().map(|row| row.iter().map(|e| numbers.residue(*e)).collect()).collect();
+    for (i, row) in residues.iter().enumerate() {
+        for other in &residues[..i] {
+            let products = row.iter().zip(other).map(|(a, b)| field::mul(*a, *b));
+            if products.fold(0, field::add) != 0 {
+                return None;
+            }
+        }
+    }
+    let n = matrix.len();
+    let mut inverse = vec![vec![Num::ZERO; n]; n];
+    for (k, row) in matrix.iter().enumerate() {
+        let square = dot(numbers, row, row);
+        let reciprocal = numbers.div(Num::ONE, square);
+        for (i, e) in row.iter().enumerate() {
+            inverse[i][k] = numbers.mul(*e, reciprocal);
+        }
+    }
+    Some(inverse)
+}
+
+/// The inverse of two or three rows: cofactors over the determinant.
+fn inverse_by_determinant(numbers: &mut Numbering, matrix: &[Vec<Num>]) -> Vec<Vec<Num>> {
+    let n = matrix.len();
+    let mut cofactor = |row: usize, column: usize| {
+        if n == 2 {
+            let e = matrix[1 - row][1 - column];
+            return if row == column { e } else { e.neg() };
+        }
+        // Rows and columns in cyclic order have the sign in themselves.
+        let at = |i: usize, j: usize| matrix[(row + i) % 3][(column + j) % 3];
+        let (first, second) = (numbers.mul(at(1, 1), at(2, 2)), numbers.mul(at(1, 2), at(2, 1)));
+        numbers.sub(first, second)
+    };
+    let cofactors: Vec<Vec<Num>> = (0..n).map(|i| (0..n).map(|j| cofactor(i, j)).collect()).collect();
+    let determinant = dot(numbers, &matrix[0], &cofactors[0]);
+    let reciprocal = numbers.div(Num::ONE, determinant);
+    (0..n).map(|i| (0..n).map(|k| numbers.mul(cofactors[k][i], reciprocal)).collect()).collect()
 }
