@@ -48,36 +48,50 @@ fn divisors_that_do_not_vanish_are_not_replaced_by_some_that_do() {
     }
 }
 
-/// A ball and the energy of the entries of its quaternion, whose square is a quarter of that of the spin: nothing accelerates it.
+/// A body without forces, and the energy of the entries of its quaternion, whose square is a quarter of that of the spin:
+/// `A w_1' = (B - C) w_2 w_3` with moments that are larger by a fortieth.
 #[test]
 fn no_entry_of_a_quaternion_is_divided_by() {
-    let text = "system Ball {
-        constants { J > 0, m > 0 }
+    let text = "system Body {
+        constants { A > 0, B > 0, C > 0 }
         coordinates { q0, q1, q2, q3 }
         let R = quaternion(q0, q1, q2, q3);
-        bodies { ball { mass: m, inertia: diag(J, J, J), center: vec(0, 0, 0), orientation: R } }
+        bodies { body { mass: 1, inertia: diag(A, B, C), center: vec(0, 0, 0), orientation: R } }
         holonomic { length: q0^2 + q1^2 + q2^2 + q3^2 = 1; }
         parameters { spin = angular_velocity(R); }
         kinetic_energy = (dot(q0)^2 + dot(q1)^2 + dot(q2)^2 + dot(q3)^2)/20;
     }";
-    let spin = [0.3, -0.4, 0.5];
+    let (moments, spin) = ([0.8, 1.1, 1.3], [0.3, -0.4, 0.5]);
     for place in 0..4 {
         // One entry is one and the others zero, or it is zero and the others are equal.
         for [own, other] in [[1.0, 0.0], [0.0, 1.0 / 3.0_f64.sqrt()]] {
-            let entries: Vec<f64> = (0..4).map(|i| if i == place { own } else { other }).collect();
+            let q: [f64; 4] = core::array::from_fn(|i| if i == place { own } else { other });
             let found = rates(text, |name| match name {
-                "J" => 0.8,
-                "m" => 1.3,
+                "A" => moments[0],
+                "B" => moments[1],
+                "C" => moments[2],
                 "spin_x" => spin[0],
                 "spin_y" => spin[1],
                 "spin_z" => spin[2],
-                name => entries[name[1..].parse::<usize>().expect("an entry")],
+                name => q[name[1..].parse::<usize>().expect("an entry")],
             });
+            let ([x, y, z], [a, b, c, d]) = (spin, q);
             // `2 q' = (0, spin) q`.
-            let ([x, y, z], [a, b, c, d]) = (spin, [entries[0], entries[1], entries[2], entries[3]]);
             let twice =
                 [-x * b - y * c - z * d, x * a + y * d - z * c, y * a + z * b - x * d, z * a + x * c - y * b];
-            let expected: Vec<f64> = twice.iter().map(|e| e / 2.0).chain([0.0; 3]).collect();
+            let axes = [
+                [a * a + b * b - c * c - d * d, 2.0 * (b * c + a * d), 2.0 * (b * d - a * c)],
+                [2.0 * (b * c - a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d + a * b)],
+                [2.0 * (b * d + a * c), 2.0 * (c * d - a * b), a * a - b * b - c * c + d * d],
+            ];
+            let own: [f64; 3] = core::array::from_fn(|k| (0..3).map(|i| axes[k][i] * spin[i]).sum());
+            let m = moments.map(|moment| moment + 1.0 / 40.0);
+            let turned: [f64; 3] = core::array::from_fn(|k| {
+                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                (m[i] - m[j]) * own[i] * own[j] / m[k]
+            });
+            let acceleration = (0..3).map(|i| (0..3).map(|k| axes[k][i] * turned[k]).sum());
+            let expected: Vec<f64> = twice.iter().map(|e| e / 2.0).chain(acceleration).collect();
             assert_near(&found, &expected);
         }
     }
