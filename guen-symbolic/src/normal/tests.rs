@@ -390,7 +390,7 @@ fn random_expressions_stay_equal() {
     assert!(found > rounds() * 2 / 3, "only {found} normal forms");
 }
 
-/// Where an expression is regular, its normal form is, at zeros and ones of variables, too, which no random point meets.
+/// Normal forms are regular where the expression is: at zeros and ones of variables, too, which no random point meets.
 #[test]
 fn regular_points_stay_regular() {
     let mut random = Random(20_261);
