@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 ///
 /// A perfect matching of rows to columns by augmenting paths, then the strongly connected components of
 /// "the row uses the column that another row is matched to" , ordered by how much each needs.
-pub(super) fn blocks(core: &[Vec<usize>]) -> Option<Vec<(Vec<usize>, Vec<usize>)>> {
+pub(crate) fn blocks(core: &[Vec<usize>]) -> Option<Vec<(Vec<usize>, Vec<usize>)>> {
     let n = core.len();
     let mut row_of: BTreeMap<usize, usize> = BTreeMap::new();
     fn augment(

@@ -11,6 +11,7 @@ mod next_level;
 mod operators;
 mod rates;
 
+pub(crate) use blocks::blocks;
 pub use brackets::Brackets;
 pub use closure::{Closure, Combination};
 pub use dependence::SingularForms;

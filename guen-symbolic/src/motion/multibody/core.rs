@@ -11,6 +11,7 @@ use super::plan::Planner;
 use super::relations::{Linear, definition, link, order};
 use super::tree::{Tree, Turn, plus};
 use super::variables::{Var, Variables};
+use crate::geometry::blocks;
 use crate::numbering::{Num, Numbering};
 use crate::zero::field;
 
@@ -20,21 +21,16 @@ type Combination = BTreeMap<Var, Num>;
 /// The largest number of forms that are solved together by their determinant.
 const DETERMINANT_SIZE: usize = 3;
 
-/// A step of the elimination.
-enum Step {
-    /// A form solved for an unknown.
-    One {
-        row: usize,
-        unknown: usize,
-        /// The reciprocal of the divisor.
-        inverse: Num,
-        /// Unknowns that are solved for later, with what they contribute.
-        later: Vec<(usize, Num)>,
-        /// Forms that have the unknown too, with its coefficients there.
-        others: Vec<(usize, Num)>,
-    },
-    /// Forms solved together for unknowns that no other form has, by the inverse of their matrix.
-    Together { rows: Vec<usize>, unknowns: Vec<usize>, inverse: Vec<Vec<Num>> },
+/// A step of the elimination: forms solved for as many unknowns, mostly one.
+struct Step {
+    rows: Vec<usize>,
+    unknowns: Vec<usize>,
+    /// The inverse of the coefficients: a row for each unknown.
+    inverse: Vec<Vec<Num>>,
+    /// Unknowns that are solved for later, with what they contribute to the only one.
+    later: Vec<(usize, Num)>,
+    /// Forms that have the unknowns too, with their coefficients there.
+    others: Vec<(usize, Vec<Num>)>,
 }
 
 /// The unknowns of a core as functions of the parameters.
@@ -73,53 +69,63 @@ impl Core {
         let mut open_rows: Vec<usize> = (0..count).collect();
         let mut open: Vec<usize> = (0..count).collect();
         while !open.is_empty() {
-            let Choice { row, unknown, is_safe } = choose(planner, &rows, &unknowns, &open_rows, &open)?;
-            if !is_safe
-                && let Some(step) = together(planner.numbers, &rows, &unknowns, (&open_rows, &open), unknown)
-            {
-                core.solve_together(planner.numbers, &rows, &unknowns, &step);
-                let Step::Together { rows, unknowns, .. } = &step else { return None };
-                open_rows.retain(|r| !rows.contains(r));
-                open.retain(|u| !unknowns.contains(u));
-                core.steps.push(step);
-                continue;
-            }
-            open_rows.retain(|r| *r != row);
-            open.retain(|u| *u != unknown);
+            let (of, found) = choose(planner, &rows, &unknowns, (&open_rows, &open))?;
+            open_rows.retain(|row| !of.contains(row));
+            open.retain(|unknown| !found.contains(unknown));
             let numbers = &mut *planner.numbers;
-            let var = unknowns[unknown];
-            let (mut combination, offset) = rows[row].clone();
-            let pivot = combination.remove(&var)?;
-            let inverse = numbers.div(Num::ONE, pivot);
-            let scaled: Vec<(Var, Num)> =
-                combination.iter().map(|(other, c)| (*other, numbers.mul(*c, inverse).neg())).collect();
-            let scaled_offset = numbers.mul(offset, inverse).neg();
+            let mut taken: Vec<(Combination, Num)> = of.iter().map(|row| rows[*row].clone()).collect();
+            let matrix: Vec<Vec<Num>> = taken
+                .iter_mut()
+                .map(|(terms, _)| {
+                    found.iter().map(|u| terms.remove(&unknowns[*u]).unwrap_or(Num::ZERO)).collect()
+                })
+                .collect();
+            let inverse = inverse(numbers, &matrix)?;
+            for (unknown, inverse) in found.iter().zip(&inverse) {
+                let mut combination = Combination::new();
+                let mut offset = Num::ZERO;
+                for ((terms, own), k) in taken.iter().zip(inverse) {
+                    for (var, c) in terms {
+                        let part = numbers.mul(*c, *k).neg();
+                        add(numbers, &mut combination, *var, part);
+                    }
+                    let part = numbers.mul(*own, *k).neg();
+                    offset = numbers.add(offset, part);
+                }
+                core.solutions[*unknown] = combination.into_iter().collect();
+                core.offsets[*unknown] = offset;
+            }
             let mut others = Vec::new();
             for other in open_rows.iter().copied() {
-                let Some(c) = rows[other].0.remove(&var) else { continue };
-                for (place, own) in &scaled {
-                    let part = numbers.mul(c, *own);
-                    add(numbers, &mut rows[other].0, *place, part);
+                let coefficients: Vec<Num> =
+                    found.iter().map(|u| rows[other].0.remove(&unknowns[*u]).unwrap_or(Num::ZERO)).collect();
+                if coefficients.iter().all(|c| c.is_zero()) {
+                    continue;
                 }
-                let part = numbers.mul(c, scaled_offset);
-                rows[other].1 = numbers.add(rows[other].1, part);
-                others.push((other, c));
+                for (c, unknown) in coefficients.iter().zip(&found).filter(|(c, _)| !c.is_zero()) {
+                    for (place, own) in &core.solutions[*unknown] {
+                        let part = numbers.mul(*c, *own);
+                        add(numbers, &mut rows[other].0, *place, part);
+                    }
+                    let part = numbers.mul(*c, core.offsets[*unknown]);
+                    rows[other].1 = numbers.add(rows[other].1, part);
+                }
+                others.push((other, coefficients));
             }
-            let later = scaled
+            // Unknowns that several forms are solved for hang on no others.
+            let later = core.solutions[found[0]]
                 .iter()
                 .filter_map(|(place, c)| Some((unknowns.iter().position(|u| u == place)?, *c)))
                 .collect();
-            core.solutions[unknown] = scaled;
-            core.offsets[unknown] = scaled_offset;
-            core.steps.push(Step::One { row, unknown, inverse, later, others });
+            core.steps.push(Step { rows: of, unknowns: found, inverse, later, others });
         }
         // Unknowns that were solved for later are put in.
         let numbers = &mut *planner.numbers;
         for step in core.steps.iter().rev() {
-            let Step::One { unknown, .. } = step else { continue };
+            let [unknown] = step.unknowns[..] else { continue };
             let mut combination = Combination::new();
-            let mut offset = core.offsets[*unknown];
-            for (var, c) in core.solutions[*unknown].clone() {
+            let mut offset = core.offsets[unknown];
+            for (var, c) in core.solutions[unknown].clone() {
                 match unknowns.iter().position(|u| *u == var) {
                     None => add(numbers, &mut combination, var, c),
                     Some(other) => {
@@ -132,65 +138,32 @@ impl Core {
                     }
                 }
             }
-            core.solutions[*unknown] = combination.into_iter().collect();
-            core.offsets[*unknown] = offset;
+            core.solutions[unknown] = combination.into_iter().collect();
+            core.offsets[unknown] = offset;
         }
         planner.numbers.is_sound().then_some(core)
-    }
-
-    /// The unknowns of forms that are solved together.
-    fn solve_together(
-        &mut self,
-        numbers: &mut Numbering,
-        rows: &[(Combination, Num)],
-        unknowns: &[Var],
-        step: &Step,
-    ) {
-        let Step::Together { rows: of, unknowns: found, inverse } = step else { return };
-        for (unknown, inverse) in found.iter().zip(inverse) {
-            let mut combination = Combination::new();
-            let mut offset = Num::ZERO;
-            for (row, c) in of.iter().zip(inverse) {
-                let c = c.neg();
-                let (terms, own) = &rows[*row];
-                for (var, k) in terms.iter().filter(|(var, _)| !unknowns.contains(var)) {
-                    let part = numbers.mul(c, *k);
-                    add(numbers, &mut combination, *var, part);
-                }
-                let part = numbers.mul(c, *own);
-                offset = numbers.add(offset, part);
-            }
-            self.solutions[*unknown] = combination.into_iter().collect();
-            self.offsets[*unknown] = offset;
-        }
     }
 
     /// The unknowns of the same forms with other values without unknowns, and without parameters.
     pub(super) fn solve(&self, numbers: &mut Numbering, mut right: Vec<Num>) -> Vec<Num> {
         let mut found = vec![Num::ZERO; self.solutions.len()];
         for step in &self.steps {
-            match step {
-                Step::One { row, unknown, inverse, others, .. } => {
-                    let own = numbers.mul(right[*row], *inverse).neg();
-                    for (other, c) in others {
-                        let part = numbers.mul(*c, own);
-                        right[*other] = numbers.add(right[*other], part);
-                    }
-                    found[*unknown] = own;
-                }
-                Step::Together { rows, unknowns, inverse } => {
-                    let sides: Vec<Num> = rows.iter().map(|row| right[*row]).collect();
-                    for (unknown, inverse) in unknowns.iter().zip(inverse) {
-                        found[*unknown] = dot(numbers, inverse, &sides).neg();
-                    }
+            let sides: Vec<Num> = step.rows.iter().map(|row| right[*row]).collect();
+            for (unknown, inverse) in step.unknowns.iter().zip(&step.inverse) {
+                found[*unknown] = dot(numbers, &sides, inverse).neg();
+            }
+            for (other, coefficients) in &step.others {
+                for (c, unknown) in coefficients.iter().zip(&step.unknowns) {
+                    let part = numbers.mul(*c, found[*unknown]);
+                    right[*other] = numbers.add(right[*other], part);
                 }
             }
         }
         for step in self.steps.iter().rev() {
-            let Step::One { unknown, later, .. } = step else { continue };
-            for (other, c) in later {
+            for (other, c) in &step.later {
                 let part = numbers.mul(*c, found[*other]);
-                found[*unknown] = numbers.add(found[*unknown], part);
+                let unknown = step.unknowns[0];
+                found[unknown] = numbers.add(found[unknown], part);
             }
         }
         found
@@ -278,90 +251,77 @@ fn pulled(
     (combination, offset)
 }
 
-/// A form and an unknown to eliminate, and whether its coefficient vanishes at no state that was looked at.
-struct Choice {
-    row: usize,
-    unknown: usize,
-    is_safe: bool,
-}
-
-/// The form and the unknown to eliminate: of those whose coefficient vanishes at no state that was looked at the one with the
-/// fewest other unknowns.
+/// Returns forms and unknowns to eliminate: of the coefficients that vanish at no state that was looked at the one whose form has the
+/// fewest other unknowns. Where there is none, a block of what is left, of one form if there is such a block: its determinant vanishes
+/// only where the forms are dependent.
 fn choose(
     planner: &mut Planner<'_>,
     rows: &[(Combination, Num)],
     unknowns: &[Var],
-    open_rows: &[usize],
-    open: &[usize],
-) -> Option<Choice> {
+    (open_rows, open): (&[usize], &[usize]),
+) -> Option<(Vec<usize>, Vec<usize>)> {
     let mut candidates: Vec<(bool, usize, usize, usize, usize)> = Vec::new();
+    let mut used: Vec<Vec<usize>> = Vec::new();
     for row in open_rows {
         let combination = &rows[*row].0;
-        let count = open.iter().filter(|u| combination.contains_key(&unknowns[**u])).count();
-        for unknown in open {
+        let own: Vec<usize> =
+            open.iter().copied().filter(|u| combination.contains_key(&unknowns[*u])).collect();
+        for unknown in &own {
             let Some(pivot) = combination.get(&unknowns[*unknown]).copied() else { continue };
             let others = open_rows.iter().filter(|r| rows[**r].0.contains_key(&unknowns[*unknown])).count();
             let is_unsafe = !planner.is_safe(pivot);
-            candidates.push((is_unsafe, (count - 1) * (others - 1), combination.len(), *row, *unknown));
+            candidates.push((is_unsafe, (own.len() - 1) * (others - 1), combination.len(), *row, *unknown));
         }
+        used.push(own);
     }
     candidates.sort_unstable();
-    candidates.first().map(|(is_unsafe, .., row, unknown)| Choice {
-        row: *row,
-        unknown: *unknown,
-        is_safe: !is_unsafe,
+    let (is_unsafe, .., row, unknown) = candidates.first().copied()?;
+    let blocks = if is_unsafe { blocks(&used).unwrap_or_default() } else { Vec::new() };
+    let blocks: Vec<(Vec<usize>, Vec<usize>)> = blocks
+        .into_iter()
+        .map(|(places, found)| (places.into_iter().map(|place| open_rows[place]).collect(), found))
+        .collect();
+    // Whichever is eliminated first, the other blocks stay.
+    let alone = candidates.iter().find(|(.., row, unknown)| {
+        blocks.iter().any(|(of, found)| of[..] == [*row] && found[..] == [*unknown])
+    });
+    if let Some((.., row, unknown)) = alone {
+        return Some((vec![*row], vec![*unknown]));
+    }
+    if let Some((of, found)) = blocks.into_iter().next() {
+        let entry = |row: &usize, u: &usize| rows[*row].0.get(&unknowns[*u]).copied().unwrap_or(Num::ZERO);
+        let matrix: Vec<Vec<Num>> =
+            of.iter().map(|row| found.iter().map(|unknown| entry(row, unknown)).collect()).collect();
+        if of.len() <= DETERMINANT_SIZE || is_orthogonal(planner.numbers, &matrix) {
+            return Some((of, found));
+        }
+    }
+    Some((vec![row], vec![unknown]))
+}
+
+/// The inverse of what a step eliminates.
+fn inverse(numbers: &mut Numbering, matrix: &[Vec<Num>]) -> Option<Vec<Vec<Num>>> {
+    match matrix.len() {
+        1 => Some(vec![vec![numbers.div(Num::ONE, matrix[0][0])]]),
+        _ if is_orthogonal(numbers, matrix) => Some(orthogonal_inverse(numbers, matrix)),
+        2..=DETERMINANT_SIZE => Some(inverse_by_determinant(numbers, matrix)),
+        _ => None,
+    }
+}
+
+fn is_orthogonal(numbers: &Numbering, matrix: &[Vec<Num>]) -> bool {
+    let residues: Vec<Vec<u64>> =
+        matrix.iter().map(|row| row.iter().map(|e| numbers.residue(*e)).collect()).collect();
+    residues.iter().enumerate().all(|(i, row)| {
+        residues[..i].iter().all(|other| {
+            let products = row.iter().zip(other).map(|(a, b)| field::mul(*a, *b));
+            products.fold(0, field::add) == 0
+        })
     })
 }
 
-/// Solves the forms that hang together with an unknown: orthogonal ones by the squares of their lengths, few others by their
-/// determinant; `None` for a single form, and for many.
-fn together(
-    numbers: &mut Numbering,
-    rows: &[(Combination, Num)],
-    unknowns: &[Var],
-    (open_rows, open): (&[usize], &[usize]),
-    first: usize,
-) -> Option<Step> {
-    let has = |row: usize, unknown: usize| rows[row].0.contains_key(&unknowns[unknown]);
-    let (mut of, mut found) = (Vec::new(), vec![first]);
-    loop {
-        let row = open_rows.iter().find(|row| !of.contains(*row) && found.iter().any(|u| has(**row, *u)));
-        let unknown = open.iter().find(|u| !found.contains(*u) && of.iter().any(|row| has(*row, **u)));
-        of.extend(row);
-        found.extend(unknown);
-        if row.is_none() && unknown.is_none() {
-            break;
-        }
-    }
-    if of.len() != found.len() || of.len() == 1 {
-        return None;
-    }
-    of.sort_unstable();
-    found.sort_unstable();
-    let entry =
-        |row: &usize, unknown: &usize| rows[*row].0.get(&unknowns[*unknown]).copied().unwrap_or(Num::ZERO);
-    let matrix: Vec<Vec<Num>> =
-        of.iter().map(|row| found.iter().map(|unknown| entry(row, unknown)).collect()).collect();
-    let inverse = match orthogonal_inverse(numbers, &matrix) {
-        Some(inverse) => inverse,
-        None if of.len() <= DETERMINANT_SIZE => inverse_by_determinant(numbers, &matrix),
-        None => return None,
-    };
-    Some(Step::Together { rows: of, unknowns: found, inverse })
-}
-
 /// `K^-1 = K^T D^-1` for orthogonal rows, `D` the squares of their lengths.
-fn orthogonal_inverse(numbers: &mut Numbering, matrix: &[Vec<Num>]) -> Option<Vec<Vec<Num>>> {
-    let residues: Vec<Vec<u64>> =
-        matrix.iter().map(|row| row.iter().map(|e| numbers.residue(*e)).collect()).collect();
-    for (i, row) in residues.iter().enumerate() {
-        for other in &residues[..i] {
-            let products = row.iter().zip(other).map(|(a, b)| field::mul(*a, *b));
-            if products.fold(0, field::add) != 0 {
-                return None;
-            }
-        }
-    }
+fn orthogonal_inverse(numbers: &mut Numbering, matrix: &[Vec<Num>]) -> Vec<Vec<Num>> {
     let n = matrix.len();
     let mut inverse = vec![vec![Num::ZERO; n]; n];
     for (k, row) in matrix.iter().enumerate() {
@@ -371,7 +331,7 @@ fn orthogonal_inverse(numbers: &mut Numbering, matrix: &[Vec<Num>]) -> Option<Ve
             inverse[i][k] = numbers.mul(*e, reciprocal);
         }
     }
-    Some(inverse)
+    inverse
 }
 
 /// The inverse of two or three rows: cofactors over the determinant.
