@@ -1,5 +1,5 @@
-//! States at which a declaration is regular, and a quotient that the derivation might write is zero by zero: its rates are there what they
-//! are beside.
+//! Rates at regular states where a rewritten quotient would be zero divided by zero: zeros of angles, of entries of quaternions, rods along
+//! the axes. The expected rates are closed forms.
 
 use crate::common::{derived, evaluated};
 use guen_language::derive::function;

@@ -122,8 +122,8 @@ fn normalized(g: &mut Graph, e: ExprId, limits: &Limits, flat: bool) -> Result<E
     if flat { rebuild::expanded(g, &ring, &f) } else { finish(g, &ring, &f, limits, DOUBLINGS) }
 }
 
-/// The expression of a fraction; half angles that occur in pairs become whole ones first, at most so many times. A divisor `cos^2` of
-/// a half angle stays: `1 + cos` of the whole one has fewer digits where both are nearly zero.
+/// The expression of a fraction; half angles that occur in pairs become whole ones first, at most so many times. Half angles stay where the
+/// fraction is divided by their sine or cosine: near a zero of `cos(x/2)`, `1 + cos(x)` cancels.
 fn finish(g: &mut Graph, ring: &Ring, f: &Fraction, limits: &Limits, doublings: u32) -> Result<ExprId> {
     let mut doubled = false;
     let mut replaced: Vec<Option<(ExprId, ExprId, ExprId)>> = vec![None; ring.angles.len()];

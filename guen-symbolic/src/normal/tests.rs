@@ -390,7 +390,7 @@ fn random_expressions_stay_equal() {
     assert!(found > rounds() * 2 / 3, "only {found} normal forms");
 }
 
-/// Normal forms are regular where the expression is: at zeros and ones of variables, too, which no random point meets.
+/// Normal forms are regular where the expression is, also where variables are zero or one; random points are never there.
 #[test]
 fn regular_points_stay_regular() {
     let mut random = Random(20_261);
@@ -405,7 +405,7 @@ fn regular_points_stay_regular() {
             let beside = random.point(point.len());
             let beside: Vec<f64> = point.iter().zip(&beside).map(|(x, y)| x + 1e-7 * y).collect();
             let (u, near) = (value(&g, e, &point), value(&g, e, &beside));
-            // The expression itself has to be regular here, with all that it is made of.
+            // Points at which the expression or a part of it is singular say nothing.
             let is_regular =
                 g.reachable(&[e], |_| false).into_iter().all(|part| value(&g, part, &point).is_finite());
             if !(is_regular && u.abs() < 1e3 && (u - near).abs() < 1e-4) {

@@ -71,8 +71,8 @@ impl<'a> Declared<'a> {
         self.closed(draw, point)
     }
 
-    /// The same, and every third time with one coordinate at zero or about, where a quotient that was rewritten may be zero by zero: one
-    /// alone, because branches of functions meet where two are equal.
+    /// A random state, in every third of which one coordinate is zero, or nearly so: there a quotient may have become zero by zero. With two
+    /// coordinates at zero, which are equal, branches of functions would meet.
     pub fn state_with_zero(&self, draw: &mut Draw) -> Option<(Vec<f64>, Vec<f64>)> {
         let mut point = self.start(draw);
         point.extend(self.held.iter().map(|_| draw.real(0.5, 1.5)));
@@ -104,7 +104,7 @@ impl<'a> Declared<'a> {
             if largest <= 1e-14 {
                 let etas: Vec<f64> = (0..self.degrees).map(|_| draw.real(-1.5, 1.5)).collect();
                 self.set_velocities(&mut point, &etas);
-                // At the change of a switch rounding decides whether it is on.
+                // Where the function of a switch is zero, rounding decides whether the switch is on.
                 let switches = self.meaning(&point).switches;
                 return switches.iter().all(|function| function.abs() > 1e-9).then_some((point, etas));
             }
@@ -132,7 +132,7 @@ impl<'a> Declared<'a> {
         let wanted = etas.iter().copied().chain(std::iter::repeat(0.0));
         let right = forms.iter().zip(wanted).map(|(row, eta)| vec![eta - row[self.n]]).collect();
         for (v, value) in self.velocities.iter().zip(solve(matrix, right)) {
-            // Rounding gives what is zero a sign, and with it another entire part.
+            // A velocity that is zero is zero, and not a rounding error below it, whose `floor` is -1.
             point[*v] = if value[0].abs() < 1e-14 { 0.0 } else { value[0] };
         }
     }

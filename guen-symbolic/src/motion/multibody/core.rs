@@ -1,7 +1,8 @@
 //! The core: forms pulled back to parameters and unknowns, and solved for the unknowns.
 //!
-//! No form is divided by a coefficient that may vanish: forms in which no other is left are solved together, by what vanishes only
-//! where they are dependent.
+//! A form is divided by a coefficient that is not seen to vanish. Where no form has one, the forms that are left are solved by the blocks
+//! of their triangular form, each by its determinant, which vanishes only where the forms are dependent. A block of more than three forms
+//! that are not orthogonal is divided by a coefficient that may vanish.
 
 use std::collections::BTreeMap;
 
@@ -251,9 +252,9 @@ fn pulled(
     (combination, offset)
 }
 
-/// Returns forms and unknowns to eliminate: of the coefficients that vanish at no state that was looked at the one whose form has the
-/// fewest other unknowns. Where there is none, a block of what is left, of one form if there is such a block: its determinant vanishes
-/// only where the forms are dependent.
+/// Returns the forms and the unknowns to eliminate next. Mostly these are one form and one unknown: of the coefficients that vanish at no
+/// state that was looked at, the one with the least fill. Where every coefficient vanishes somewhere, they are a block of the triangular
+/// form, a block of one form if there is one.
 fn choose(
     planner: &mut Planner<'_>,
     rows: &[(Combination, Num)],
@@ -281,7 +282,7 @@ fn choose(
         .into_iter()
         .map(|(places, found)| (places.into_iter().map(|place| open_rows[place]).collect(), found))
         .collect();
-    // Whichever is eliminated first, the other blocks stay.
+    // The blocks may be eliminated in any order.
     let alone = candidates.iter().find(|(.., row, unknown)| {
         blocks.iter().any(|(of, found)| of[..] == [*row] && found[..] == [*unknown])
     });
@@ -299,7 +300,7 @@ fn choose(
     Some((vec![row], vec![unknown]))
 }
 
-/// The inverse of what a step eliminates.
+/// The inverse of the coefficients of one, two or three forms, or of orthogonal ones.
 fn inverse(numbers: &mut Numbering, matrix: &[Vec<Num>]) -> Option<Vec<Vec<Num>>> {
     match matrix.len() {
         1 => Some(vec![vec![numbers.div(Num::ONE, matrix[0][0])]]),
@@ -309,6 +310,7 @@ fn inverse(numbers: &mut Numbering, matrix: &[Vec<Num>]) -> Option<Vec<Vec<Num>>
     }
 }
 
+/// Whether rows are orthogonal to each other, modulo the prime.
 fn is_orthogonal(numbers: &Numbering, matrix: &[Vec<Num>]) -> bool {
     let residues: Vec<Vec<u64>> =
         matrix.iter().map(|row| row.iter().map(|e| numbers.residue(*e)).collect()).collect();
