@@ -279,6 +279,7 @@ fn divisors_stay_those_that_were_written() {
     check("1/(1 - sin(x)) + 1/(1 + sin(x))", "-2/((sin(x) + 1)*(sin(x) - 1))");
     check("sin(x)^2/(1 - cos(x))", "cos(x) + 1");
     check("tan(x/4)", "tan(1/4*x)");
+    check("1/cos(x/4)^2", "1/cos(1/4*x)^2");
     check("1/(sqrt(x) - 1)", "1/(sqrt(x) - 1)");
 }
 
