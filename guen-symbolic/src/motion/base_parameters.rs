@@ -166,7 +166,7 @@ impl InBaseParameters {
         let Restated { system, frame, forces, projected } = &mut self.restated;
         let (squares, etas) = (projected.squares.as_ref()?, &system.etas[..system.forms.degrees]);
         let theirs = constraint_forces::dense_cost(bench, &projected.equations.mass[..etas.len()]);
-        let solved = constraint_forces::solve(bench, frame, squares, theirs, etas, forces)?;
+        let solved = constraint_forces::solve_squares(bench, frame, squares, theirs, etas, forces)?;
         // An acceleration that several of the others are differences of is computed once; written out, small ones have more in common.
         let is_large = weighted_cost(&bench.graph, &solved.accelerations) > ALL_FORMS;
         let is_shared = |k: usize| self.change.back.iter().filter(|row| !row[k].is_zero()).count() > 1;

@@ -280,7 +280,14 @@ fn by_constraint_forces(bench: &mut Workbench, search: &mut Search<'_>) -> Resul
         (None, Some(Some(squares))) => {
             let etas = &search.system.etas[..search.system.forms.degrees];
             let theirs = constraint_forces::dense_cost(bench, &multiplied[0].mass[..etas.len()]);
-            constraint_forces::solve(bench, search.frame, squares, theirs, etas, search.generalised_forces)
+            constraint_forces::solve_squares(
+                bench,
+                search.frame,
+                squares,
+                theirs,
+                etas,
+                search.generalised_forces,
+            )
         }
         (None, Some(None)) => return Ok(Outcome::Declined("the energy is no sum of squares")),
         (None, None) => return Ok(Outcome::Declined("the energy is not multiplied out")),

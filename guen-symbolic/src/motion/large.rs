@@ -4,13 +4,18 @@
 //! [`WRITTEN_OUT_PARAMETERS`] none is made: the rates come from the bodies, or from the reactions between the velocity forms as unknowns, with
 //! work that grows with the pairs of forms and parameters that meet. They are proved like all others.
 
-use super::constraint_forces;
-use super::projection::{Curl, Square, Squares, squares};
+use std::collections::BTreeMap;
+
+use super::constraint_forces::{self, Differences, Edge};
+use super::projection::{Curl, Square, squares};
 use super::proof::Definition;
+use super::sparse::Vector;
 use super::velocity_forms::VelocityPartials;
 use super::{DerivationError, Frame, KineticTerm, Mechanics, Solution, multibody};
-use crate::algebra::{ExprId, Node, gradient};
-use crate::motion::thresholds::{DIAGONAL_PARAMETERS, FORCES_PER_PARAMETER, WRITTEN_OUT_PARAMETERS};
+use crate::algebra::{ExprId, FastMap, Node, Rational, gradient};
+use crate::motion::thresholds::{
+    DIAGONAL_PARAMETERS, FORCES_PER_PARAMETER, MOST_FORMS, WRITTEN_OUT_PARAMETERS,
+};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -61,17 +66,19 @@ pub(super) fn rates(
         found.push(Alone { name: "bodies", rates: bodies.rates, solution });
     }
     if found.is_empty()
-        && let Some(squares) = sparse_squares(bench, (system, frame), partials, terms)
+        && let Some(differences) = differences(bench, (system, frame), partials, terms)
     {
-        if let Some(solution) = uncoupled(bench, &squares, generalised_forces) {
+        if let Some(solution) = uncoupled(bench, &differences, generalised_forces) {
             let rates = [&frame.velocities[..], &solution.accelerations].concat();
             found.push(Alone { name: "multiplied out", rates, solution });
         }
         let l = system.forms.degrees;
         let theirs = FORCES_PER_PARAMETER * l;
-        let by_forces =
-            constraint_forces::solve(bench, frame, &squares, theirs, &system.etas[..l], generalised_forces);
-        if let Some(by_forces) = by_forces {
+        // Each constraint force costs as much as a parameter at least.
+        let by_forces = (differences.rows.len() <= MOST_FORMS * l).then(|| {
+            constraint_forces::solve(bench, frame, differences, theirs, &system.etas[..l], generalised_forces)
+        });
+        if let Some(by_forces) = by_forces.flatten() {
             let rates = [&frame.velocities[..], &by_forces.accelerations].concat();
             let solution = Solution::known(bench, by_forces.accelerations, &by_forces.divisors);
             found.push(Alone { name: "constraint forces", rates, solution });
@@ -87,19 +94,24 @@ pub(super) fn rates(
 }
 
 /// The accelerations of parameters of which no two meet in a square; none where some meet, or where one has no inertia that is sure.
-fn uncoupled(bench: &mut Workbench, squares: &Squares, generalised_forces: &[ExprId]) -> Option<Solution> {
+fn uncoupled(bench: &mut Workbench, forms: &Differences, generalised_forces: &[ExprId]) -> Option<Solution> {
     let mut inertias: Vec<Vec<ExprId>> = vec![Vec::new(); generalised_forces.len()];
-    for (mass, components) in squares.masses.iter().zip(&squares.components) {
-        let moving = components.iter().enumerate().filter(|(_, e)| !bench.graph.is_zero(**e));
-        let moving: Vec<(usize, &ExprId)> = moving.take(2).collect();
-        let Some((s, component)) = moving.first().copied() else { continue };
-        if moving.len() > 1 || !bench.graph.roles(*component).is_constant() {
+    for (k, mass) in forms.masses.iter().enumerate() {
+        // A multiple of another form moves with the parameter of that one.
+        let (mut of, mut multiple) = (k, Rational::ONE);
+        while let (Some(edge), 0) = (&forms.edges[of], forms.rows[of].len()) {
+            multiple = &multiple * &edge.multiple;
+            of = edge.parent;
+        }
+        let [(s, component)] = forms.rows[of].entries() else { return None };
+        if forms.edges[of].is_some() || !bench.graph.roles(*component).is_constant() {
             return None;
         }
-        inertias[s].push(bench.graph.product(&[(*mass, 1), (*component, 2)]));
+        let component = bench.graph.scale(*component, &multiple);
+        inertias[*s].push(bench.graph.product(&[(*mass, 1), (component, 2)]));
     }
     let mut accelerations = Vec::new();
-    for (inertia, (own, force)) in inertias.into_iter().zip(squares.rest.iter().zip(generalised_forces)) {
+    for (inertia, (own, force)) in inertias.into_iter().zip(forms.rest.iter().zip(generalised_forces)) {
         let inertia = bench.graph.sum(inertia);
         if !bench.graph.manifestly_nonzero(inertia) {
             return None;
@@ -110,57 +122,114 @@ fn uncoupled(bench: &mut Workbench, squares: &Squares, generalised_forces: &[Exp
     Some(Solution::known(bench, accelerations, &[]))
 }
 
+/// A form of the energy relative to another one that it is written with, the sum of that and of a few terms.
+struct Relative {
+    edge: Option<Edge>,
+    /// The terms, without the factor of the square.
+    terms: ExprId,
+}
+
+/// The forms of squares relative to those that stand in their sums: the position of a link is that of the link before, and a term.
+fn as_written(bench: &mut Workbench, squares: &[Square]) -> Vec<Relative> {
+    let mut places: FastMap<ExprId, usize> = FastMap::default();
+    for (k, square) in squares.iter().enumerate() {
+        places.or_insert_with(square.form, || k);
+    }
+    let relative = |bench: &mut Workbench, (k, square): (usize, &Square)| {
+        let edge_to = |bench: &mut Workbench, form: ExprId, number: &Rational| {
+            let parent = *places.get(&form).filter(|place| **place != k)?;
+            let ratio = bench.graph.div(square.factor, squares[parent].factor);
+            let multiple = number * bench.graph.as_number(ratio)?;
+            Some(Edge { parent, multiple })
+        };
+        if let Some(edge) = edge_to(bench, square.form, &Rational::ONE) {
+            return Relative { edge: Some(edge), terms: bench.graph.zero() };
+        }
+        if let Node::Sum { constant, terms } = bench.graph.node(square.form).clone() {
+            for (place, (form, number)) in terms.iter().enumerate() {
+                if let Some(edge) = edge_to(bench, *form, number) {
+                    let others = terms.iter().enumerate().filter(|(other, _)| *other != place);
+                    let others: Vec<(ExprId, Rational)> = others.map(|(_, term)| term.clone()).collect();
+                    let (others, constant) = (bench.graph.linear(&others), bench.graph.number(constant));
+                    return Relative { edge: Some(edge), terms: bench.graph.add(others, constant) };
+                }
+            }
+        }
+        Relative { edge: None, terms: square.form }
+    };
+    squares.iter().enumerate().map(|square| relative(bench, square)).collect()
+}
+
 /// The energy as squares of velocities, with constant factors, and the forces of `U`; none where it has anything else.
-fn sparse_squares(
+fn differences(
     bench: &mut Workbench,
     (system, frame): (&Mechanics, &mut Frame),
     partials: &mut VelocityPartials,
     terms: &[KineticTerm],
-) -> Option<Squares> {
+) -> Option<Differences> {
     if terms.iter().any(|term| term.forms.len() != 2) {
         return None;
     }
-    let l = system.forms.degrees;
-    let list = squares(bench, terms)?;
+    let squares = squares(bench, terms)?;
+    if squares.iter().any(|square| !bench.graph.roles(square.factor).is_constant()) {
+        return None;
+    }
+    let masses: Vec<ExprId> = squares.iter().map(|square| square.mass).collect();
+    let rest = potential_forces(bench, system, frame);
+    let relative = as_written(bench, &squares);
+    let lists: Vec<ExprId> = relative.iter().map(|form| form.terms).collect();
+    let (rows, drifts) = along_operators(bench, (system, frame), partials, (&squares, &lists))?;
+    let edges = relative.into_iter().map(|form| form.edge).collect();
+    Differences { masses, edges, rows, drifts, rest }.joined(bench)
+}
+
+/// The components of affine expressions in the velocities, times the factors of squares, along `X_1..X_l` and along `X_0`; none where
+/// one is not closed.
+fn along_operators(
+    bench: &mut Workbench,
+    (system, frame): (&Mechanics, &mut Frame),
+    partials: &mut VelocityPartials,
+    (squares, lists): (&[Square], &[ExprId]),
+) -> Option<(Vec<Vector>, Vec<ExprId>)> {
     let mut curl = Curl::new(bench, system);
     let columns = frame.operators.by_coordinate(&bench.graph);
-    let zero = bench.graph.zero();
-    let mut found =
-        Squares { masses: Vec::new(), components: Vec::new(), drifts: Vec::new(), rest: Vec::new() };
-    for Square { mass, factor, form } in list {
-        let form = partials.affine(bench, form)?;
-        if !bench.graph.roles(factor).is_constant() || !curl.vanishes(bench, system, &form) {
+    let (mut rows, mut drifts) = (Vec::new(), Vec::new());
+    for (square, terms) in squares.iter().zip(lists) {
+        let form = partials.affine(bench, *terms)?;
+        if !curl.vanishes(bench, system, &form) {
             return None;
         }
-        let mut components = vec![zero; l];
-        let mut sums: Vec<Vec<ExprId>> = vec![Vec::new(); l + 1];
+        let mut sums: BTreeMap<usize, Vec<ExprId>> = BTreeMap::new();
         for (i, b) in &form.on_velocities {
             for (s, xi) in &columns[*i] {
-                sums[*s].push(bench.graph.mul(*b, *xi));
+                sums.entry(*s).or_default().push(bench.graph.mul(*b, *xi));
             }
         }
-        sums[0].push(form.offset);
-        let mut sums = sums.into_iter().map(|terms| {
-            if terms.is_empty() {
-                return zero;
-            }
+        sums.entry(0).or_default().push(form.offset);
+        let mut row = Vector::default();
+        for (s, terms) in sums {
             let sum = bench.graph.sum(terms);
-            let own = bench.graph.mul(factor, sum);
-            bench.tidy(own)
-        });
-        found.drifts.push(sums.next().unwrap_or(zero));
-        components.iter_mut().zip(sums).for_each(|(component, sum)| *component = sum);
-        found.masses.push(mass);
-        found.components.push(components);
+            let own = bench.graph.mul(square.factor, sum);
+            let own = bench.tidy(own);
+            match s {
+                0 => drifts.push(own),
+                s => row.set(&bench.graph, s - 1, own),
+            }
+        }
+        rows.push(row);
     }
-    // X_s(U) from all slopes at once.
+    Some((rows, drifts))
+}
+
+/// `X_s(U)` from all slopes at once.
+fn potential_forces(bench: &mut Workbench, system: &Mechanics, frame: &Frame) -> Vec<ExprId> {
+    let columns = frame.operators.by_coordinate(&bench.graph);
     let slopes = gradient(&mut bench.graph, system.force_function, &system.forms.coordinates);
-    let mut rest: Vec<Vec<ExprId>> = vec![Vec::new(); l + 1];
+    let mut forces: Vec<Vec<ExprId>> = vec![Vec::new(); system.forms.degrees + 1];
     for (slope, column) in slopes.iter().zip(&columns) {
         for (s, xi) in column {
-            rest[*s].push(bench.graph.mul(*xi, *slope));
+            forces[*s].push(bench.graph.mul(*xi, *slope));
         }
     }
-    found.rest = rest.into_iter().skip(1).map(|terms| bench.graph.sum(terms)).collect();
-    Some(found)
+    forces.into_iter().skip(1).map(|terms| bench.graph.sum(terms)).collect()
 }

@@ -29,6 +29,7 @@ mod relative_angles;
 mod restated;
 mod restriction;
 mod solve;
+mod sparse;
 mod spins;
 mod state_rates;
 mod stated;

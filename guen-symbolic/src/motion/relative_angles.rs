@@ -1,11 +1,13 @@
 //! The angles between base angles: what entries of sparse equations are short in, and what velocities keep their digits in.
 
-use crate::algebra::{ExprId, Function, Graph, Node, Rational};
+use crate::algebra::{ExprId, FastMap, Function, Graph, Node, Rational};
 use crate::workbench::Workbench;
 
 /// Differences of angles that meet in an expression, as the edges of a forest.
 pub(super) struct RelativeAngles {
     edges: Vec<(ExprId, ExprId, ExprId)>,
+    /// The edges at each angle.
+    at: FastMap<ExprId, Vec<usize>>,
 }
 
 impl RelativeAngles {
@@ -20,14 +22,28 @@ impl RelativeAngles {
                 edges.push((a, b, shorter(bench, *e, a, b)));
             }
         }
-        RelativeAngles { edges }
+        Self::of_edges(edges)
+    }
+
+    fn of_edges(edges: Vec<(ExprId, ExprId, ExprId)>) -> Self {
+        let mut at: FastMap<ExprId, Vec<usize>> = FastMap::default();
+        for (place, (a, b, _)) in edges.iter().enumerate() {
+            at.or_default(*a).push(place);
+            at.or_default(*b).push(place);
+        }
+        RelativeAngles { edges, at }
+    }
+
+    /// The edges at an angle, in their order.
+    fn edges_at(&self, angle: ExprId) -> impl Iterator<Item = &(ExprId, ExprId, ExprId)> {
+        self.at.get(&angle).into_iter().flatten().map(|place| &self.edges[*place])
     }
 
     /// Drops the angles that are not shorter than those that they are between.
     pub(super) fn shorter(mut self, graph: &Graph) -> Self {
         let length = |angle: ExprId| graph.linear_parts(angle).len();
         self.edges.retain(|(a, b, angle)| length(*angle) < length(*a).max(length(*b)));
-        self
+        Self::of_edges(self.edges)
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -44,8 +60,12 @@ impl RelativeAngles {
     ) -> Option<T> {
         let mut own = angles_in(&bench.graph, e);
         own.extend(self.middles(&own));
-        let inside: Vec<_> =
-            self.edges.iter().filter(|(a, b, _)| own.contains(a) && own.contains(b)).collect();
+        let mut inside: Vec<usize> =
+            own.iter().filter_map(|angle| self.at.get(angle)).flatten().copied().collect();
+        inside.sort_unstable();
+        inside.dedup();
+        let inside = inside.into_iter().map(|place| &self.edges[place]);
+        let inside: Vec<_> = inside.filter(|(a, b, _)| own.contains(a) && own.contains(b)).collect();
         if inside.is_empty() {
             return None;
         }
@@ -70,11 +90,11 @@ impl RelativeAngles {
         };
         let mut found: Vec<ExprId> = Vec::new();
         for first in own {
-            for middle in self.edges.iter().filter_map(|edge| other(edge, *first)) {
+            for middle in self.edges_at(*first).filter_map(|edge| other(edge, *first)) {
                 let joins = |edge: &(ExprId, ExprId, ExprId)| {
                     other(edge, middle).is_some_and(|end| end != *first && own.contains(&end))
                 };
-                if !own.contains(&middle) && !found.contains(&middle) && self.edges.iter().any(joins) {
+                if !own.contains(&middle) && !found.contains(&middle) && self.edges_at(middle).any(joins) {
                     found.push(middle);
                 }
             }
@@ -83,30 +103,39 @@ impl RelativeAngles {
     }
 }
 
-/// Angles that are joined, each with the number of its tree.
+/// Angles that are joined, as trees.
 #[derive(Default)]
-struct Trees(Vec<(ExprId, usize)>);
+struct Trees {
+    places: FastMap<ExprId, usize>,
+    /// The angle above each angle; a root is its own.
+    above: Vec<usize>,
+}
 
 impl Trees {
-    fn place(&mut self, angle: ExprId) -> usize {
-        self.0.iter().position(|(known, _)| *known == angle).unwrap_or_else(|| {
-            self.0.push((angle, self.0.len()));
-            self.0.len() - 1
-        })
+    fn root(&mut self, angle: ExprId) -> usize {
+        let next = self.above.len();
+        let mut place = *self.places.or_insert_with(angle, || next);
+        if place == next {
+            self.above.push(next);
+        }
+        while self.above[place] != place {
+            // Halves the way.
+            self.above[place] = self.above[self.above[place]];
+            place = self.above[place];
+        }
+        place
     }
 
     /// Joins the trees of two angles, if they are two.
     fn join(&mut self, a: ExprId, b: ExprId) -> bool {
-        let (a, b) = (self.place(a), self.place(b));
-        let (first, second) = (self.0[a].1, self.0[b].1);
-        self.0.iter_mut().filter(|(_, tree)| *tree == second).for_each(|(_, tree)| *tree = first);
+        let (first, second) = (self.root(a), self.root(b));
+        self.above[second] = first;
         first != second
     }
 
     /// Whether an angle stands for its tree, or is in none.
     fn is_root(&self, angle: ExprId) -> bool {
-        let place = self.0.iter().position(|(known, _)| *known == angle);
-        place.is_none_or(|place| self.0[place].1 == place)
+        self.places.get(&angle).is_none_or(|place| self.above[*place] == *place)
     }
 }
 

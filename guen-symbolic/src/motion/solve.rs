@@ -1,6 +1,7 @@
 //! `M eta' = f` by a straight-line `L D L^T` factorisation of each block of the mass matrix.
 
 use super::cancellation;
+use super::sparse::Vector;
 use crate::algebra::ExprId;
 use crate::geometry::adjugate;
 use crate::motion::thresholds::{ADJUGATE_BLOCK, BLOCK_WRITTEN_OUT};
@@ -106,7 +107,7 @@ impl Solution {
             _ => Naming::Everything,
         };
         let Some(Elimination { mut values, pivots }) =
-            eliminate(bench, m.clone(), f.clone(), naming, choose_pivot)
+            eliminate(bench, sparse_rows(bench, &m), f.clone(), naming, choose_pivot)
         else {
             return self.solve_by_adjugate(bench, &m, &f);
         };
@@ -188,60 +189,69 @@ pub(super) enum Naming {
     Definite,
 }
 
+/// The rows of a matrix without what is zero.
+fn sparse_rows(bench: &Workbench, m: &[Vec<ExprId>]) -> Vec<Vector> {
+    m.iter().map(|row| Vector::of_list(&bench.graph, row)).collect()
+}
+
 /// Solves a symmetric system by `L D L^T`; `None` where nothing is chosen as a pivot. `choose` picks the next one from
-/// the rows that are left.
+/// the rows that are left, which have no components at those that are not.
 pub(super) fn eliminate(
     bench: &mut Workbench,
-    mut m: Vec<Vec<ExprId>>,
+    mut m: Vec<Vector>,
     mut f: Vec<ExprId>,
     naming: Naming,
-    mut choose: impl FnMut(&mut Workbench, &[Vec<ExprId>], &[usize]) -> Option<usize>,
+    mut choose: impl FnMut(&mut Workbench, &[Vector], &[usize]) -> Option<usize>,
 ) -> Option<Elimination> {
     let n = m.len();
     let names_all = matches!(naming, Naming::Everything | Naming::Definite);
     let keep = |bench: &mut Workbench, e: ExprId| if names_all { bench.graph.keep(e) } else { e };
-    for e in m.iter_mut().flatten().chain(&mut f) {
+    let entries = m.iter_mut().flat_map(Vector::entries_mut).map(|(_, e)| e);
+    for e in entries.chain(&mut f) {
         *e = keep(bench, *e);
     }
     let mut left: Vec<usize> = (0..n).collect();
-    let mut pivots: Vec<ExprId> = Vec::new();
-    // Multipliers L_rk of each elimination step.
-    let mut steps: Vec<(usize, Vec<(usize, ExprId)>)> = Vec::new();
+    // Each elimination step with its pivot and its multipliers L_rk.
+    let mut steps: Vec<(usize, ExprId, Vec<(usize, ExprId)>)> = Vec::new();
     while !left.is_empty() {
         let k = choose(bench, &m, &left)?;
         left.retain(|r| *r != k);
-        pivots.push(m[k][k]);
+        let row = core::mem::take(&mut m[k]);
+        let pivot = row.get(k).unwrap_or(bench.graph.zero());
         let mut multipliers = Vec::new();
-        for r in left.iter().copied() {
-            if !bench.graph.is_zero(m[r][k]) {
-                let quotient = bench.graph.div(m[r][k], m[k][k]);
-                // In a sparse matrix a multiplier has three users at least, and no other row its divisor.
-                let factor = match naming {
-                    Naming::Definite => bench.graph.keep_whole(quotient),
-                    _ => keep(bench, quotient),
-                };
-                multipliers.push((r, factor));
-            }
+        for (r, entry) in row.entries().iter().filter(|(r, _)| *r != k) {
+            m[*r].remove(k);
+            let quotient = bench.graph.div(*entry, pivot);
+            // In a sparse matrix a multiplier has three users at least, and no other row its divisor.
+            let factor = match naming {
+                Naming::Definite => bench.graph.keep_whole(quotient),
+                _ => keep(bench, quotient),
+            };
+            multipliers.push((*r, factor, *entry));
         }
-        for (i, (r, factor)) in multipliers.iter().enumerate() {
-            for (c, _) in &multipliers[..=i] {
-                let product = bench.graph.mul(*factor, m[*c][k]);
-                let difference = bench.graph.sub(m[*r][*c], product);
+        for (i, (r, factor, _)) in multipliers.iter().enumerate() {
+            for (c, _, entry) in &multipliers[..=i] {
+                let product = bench.graph.mul(*factor, *entry);
+                let before = m[*r].get(*c).unwrap_or(bench.graph.zero());
+                let difference = bench.graph.sub(before, product);
                 let entry = if naming == Naming::Definite { difference } else { bench.dropped(difference) };
                 let entry = keep(bench, entry);
-                (m[*r][*c], m[*c][*r]) = (entry, entry);
+                m[*r].set(&bench.graph, *c, entry);
+                m[*c].set(&bench.graph, *r, entry);
             }
             let product = bench.graph.mul(*factor, f[k]);
             let rest = bench.graph.sub(f[*r], product);
             f[*r] = keep(bench, rest);
         }
-        steps.push((k, multipliers));
+        let multipliers = multipliers.into_iter().map(|(r, factor, _)| (r, factor)).collect();
+        steps.push((k, pivot, multipliers));
     }
+    let pivots = steps.iter().map(|(_, pivot, _)| *pivot).collect();
     // L^T x = D^-1 f', backwards.
     let mut values = vec![bench.graph.zero(); n];
     let mut last = true;
-    for (k, multipliers) in steps.into_iter().rev() {
-        let mut terms = vec![bench.graph.div(f[k], m[k][k])];
+    for (k, pivot, multipliers) in steps.into_iter().rev() {
+        let mut terms = vec![bench.graph.div(f[k], pivot)];
         for (r, factor) in multipliers {
             let product = bench.graph.mul(factor, values[r]);
             terms.push(bench.graph.neg(product));
@@ -276,19 +286,18 @@ fn put_back(
 }
 
 /// The diagonal entry to eliminate on: constants before functions, then the one with the fewest neighbours.
-fn choose_pivot(bench: &mut Workbench, m: &[Vec<ExprId>], left: &[usize]) -> Option<usize> {
+fn choose_pivot(bench: &mut Workbench, m: &[Vector], left: &[usize]) -> Option<usize> {
+    // A row without the entry on the diagonal is not divided by.
+    let diagonal = |k: usize| m[k].get(k);
     let mut candidates: Vec<(bool, usize, usize)> = left
         .iter()
-        .map(|k| {
-            let neighbours = left.iter().filter(|r| **r != *k && !bench.graph.is_zero(m[**r][*k])).count();
-            (!bench.graph.roles(m[*k][*k]).is_constant(), neighbours, *k)
-        })
+        .filter_map(|k| Some((!bench.graph.roles(diagonal(*k)?).is_constant(), m[*k].len() - 1, *k)))
         .collect();
     candidates.sort_unstable();
     candidates
         .into_iter()
         .map(|(_, _, k)| k)
-        .find(|k| bench.verdict_on_manifold(m[*k][*k]) == Verdict::Nonzero)
+        .find(|k| diagonal(*k).is_some_and(|e| bench.verdict_on_manifold(e) == Verdict::Nonzero))
 }
 
 /// The connected components of the matrix's pattern, in order of their first rows.

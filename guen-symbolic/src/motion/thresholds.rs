@@ -53,6 +53,9 @@ pub(in crate::motion) const COMPARED_SUMS: usize = 400;
 /// The number of products for every angle of a form from which on it is not looked at.
 pub(in crate::motion) const PRODUCTS_OF_AN_ANGLE: usize = 400;
 
+/// The number of forms of the energy for each parameter above which no constraint forces between them are unknowns.
+pub(in crate::motion) const MOST_FORMS: usize = 4;
+
 /// The cost of a mass matrix below which it is not replaced by constraint forces as unknowns.
 pub(in crate::motion) const DENSE_COST: usize = 12;
 

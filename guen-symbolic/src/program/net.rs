@@ -273,40 +273,40 @@ impl Net {
 
     /// Everything below the roots, children first, and how many parents (or roots) use each node.
     pub(super) fn reachable(&self, roots: &[NetId]) -> (Vec<NetId>, Vec<u32>) {
+        /// A share of the nodes below which those that are met are sorted, rather than all looked at.
+        const SPARSE: usize = 16;
         let nodes: &[NetNode] = &self.nodes;
         let mut counts = vec![0_u32; nodes.len()];
         let uses: &mut [u32] = &mut counts;
-        // Children are older than their parents: from the youngest root on downwards every node has been counted before
-        // it is met. What is still to be met ends the search.
-        let (mut next, mut pending) = (0, 0);
-        for root in roots {
-            let index = root.0 as usize;
+        let mut found: Vec<NetId> = Vec::new();
+        let count = |uses: &mut [u32], found: &mut Vec<NetId>, id: NetId| {
+            let index = id.0 as usize;
             uses[index] += 1;
             if uses[index] == 1 {
-                pending += 1;
+                found.push(id);
             }
-            if next <= index {
-                next = index + 1;
-            }
+        };
+        for root in roots {
+            count(uses, &mut found, *root);
         }
-        let mut found = Vec::new();
-        while pending > 0 {
-            next -= 1;
-            if uses[next] == 0 {
-                continue;
-            }
-            pending -= 1;
-            found.push(NetId(next as u32));
-            let count = |child: NetId| {
-                let index = child.0 as usize;
-                uses[index] += 1;
-                if uses[index] == 1 {
-                    pending += 1;
+        let mut next = 0;
+        while next < found.len() {
+            let index = found[next].0 as usize;
+            nodes[index].children(|child| count(uses, &mut found, child));
+            next += 1;
+        }
+        // Children are older than their parents.
+        if SPARSE * found.len() < nodes.len() {
+            found.sort_unstable();
+        } else {
+            let mut place = 0;
+            for (index, uses) in uses.iter().enumerate() {
+                if *uses > 0 {
+                    found[place] = NetId(index as u32);
+                    place += 1;
                 }
-            };
-            nodes[next].children(count);
+            }
         }
-        found.reverse();
         (found, counts)
     }
 }

@@ -7,8 +7,10 @@
 //! Nothing is divided by that could vanish while the mass matrix is regular: constants known to differ from zero, and
 //! sums of squares or determinants of a whole block, which vanish only where `B` loses rank.
 
-use super::sparse::Vector;
+use std::collections::BTreeSet;
+
 use crate::algebra::{ExprId, Node};
+use crate::motion::sparse::{Columns, Vector};
 use crate::motion::thresholds::BALANCED_PARAMETERS;
 use crate::workbench::Workbench;
 
@@ -83,6 +85,7 @@ impl Balancing<'_> {
         for k in self.pivots.iter().flatten() {
             seen[*k] = true;
         }
+        let columns = Columns::new(self.rows);
         let mut blocks = Vec::new();
         for start in 0..self.rows.len() {
             if seen[start] {
@@ -91,12 +94,15 @@ impl Balancing<'_> {
             seen[start] = true;
             let (mut members, mut parameters) = (vec![start], unknown(start));
             // Until no difference shares a parameter with the block.
-            loop {
-                let joins = |k: &usize| !seen[*k] && unknown(*k).iter().any(|s| parameters.contains(s));
-                let Some(k) = (0..self.rows.len()).find(joins) else { break };
-                seen[k] = true;
+            let near = |s: &usize| columns.at(*s).iter().copied();
+            let mut joining: BTreeSet<usize> = parameters.iter().flat_map(near).collect();
+            while let Some(k) = joining.pop_first() {
+                if core::mem::replace(&mut seen[k], true) {
+                    continue;
+                }
                 members.push(k);
                 let new: Vec<usize> = unknown(k).into_iter().filter(|s| !parameters.contains(s)).collect();
+                joining.extend(new.iter().flat_map(near));
                 parameters.extend(new);
             }
             members.sort_unstable();

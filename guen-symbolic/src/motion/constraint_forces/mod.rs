@@ -27,22 +27,21 @@
 
 mod balance;
 mod pattern;
-mod sparse;
 mod system;
 mod tree;
 
 use super::Frame;
 use super::projection::Squares;
 use super::relative_angles::RelativeAngles;
-use crate::algebra::ExprId;
+use super::sparse::{Columns, Vector};
+use crate::algebra::{ExprId, Rational};
 use crate::motion::thresholds::DENSE_COST;
 use crate::workbench::Workbench;
 
 use balance::{Balance, balance};
 use pattern::Pattern;
-use sparse::Vector;
 use system::{System, summands, terms};
-use tree::Edge;
+pub(super) use tree::{Differences, Edge};
 
 /// The accelerations by constraint forces.
 pub(super) struct ByConstraintForces {
@@ -54,14 +53,26 @@ pub(super) struct ByConstraintForces {
     pub(super) is_clear: bool,
 }
 
-/// The forms as differences.
-struct Stretched<'a> {
+/// The tree of the forms.
+struct Tree<'a> {
     edges: &'a [Option<Edge>],
+    /// The forms that are taken relative to each form, with their multiples.
+    children: Vec<Vec<(usize, &'a Rational)>>,
     /// `1/m_k`.
     weights: &'a [ExprId],
 }
 
-impl Stretched<'_> {
+impl<'a> Tree<'a> {
+    fn new(edges: &'a [Option<Edge>], weights: &'a [ExprId]) -> Self {
+        let mut children: Vec<Vec<(usize, &Rational)>> = vec![Vec::new(); edges.len()];
+        for (child, edge) in edges.iter().enumerate() {
+            if let Some(Edge { parent, multiple }) = edge {
+                children[*parent].push((child, multiple));
+            }
+        }
+        Tree { edges, children, weights }
+    }
+
     /// `S^T y`.
     fn of(&self, bench: &mut Workbench, y: &Vector) -> Vector {
         let mut image = Vector::default();
@@ -82,13 +93,9 @@ impl Stretched<'_> {
             let rate = bench.graph.mul(*e, self.weights[*k]);
             let rate = bench.tidy(rate);
             found.add(bench, *k, rate);
-            for (child, edge) in self.edges.iter().enumerate() {
-                if let Some(Edge { parent, multiple }) = edge
-                    && parent == k
-                {
-                    let part = bench.graph.scale(rate, &-multiple.clone());
-                    found.add(bench, child, part);
-                }
+            for (child, multiple) in &self.children[*k] {
+                let part = bench.graph.scale(rate, &-(*multiple).clone());
+                found.add(bench, *child, part);
             }
         }
         found
@@ -100,9 +107,8 @@ pub(super) fn dense_cost(bench: &Workbench, mass: &[Vec<ExprId>]) -> usize {
     pattern::of_mass(bench, mass).cost()
 }
 
-/// Solves by constraint forces, where that is possible and promises to be cheaper than the mass matrix, of which the cost is
-/// estimated. `etas` and `forces` are those of the frame, the forces without `T` and `U`.
-pub(super) fn solve(
+/// Solves by constraint forces between forms whose squares are the energy: see [`solve`].
+pub(super) fn solve_squares(
     bench: &mut Workbench,
     frame: &mut Frame,
     squares: &Squares,
@@ -110,29 +116,31 @@ pub(super) fn solve(
     etas: &[ExprId],
     forces: &[ExprId],
 ) -> Option<ByConstraintForces> {
-    let l = etas.len();
-    let zero = bench.graph.zero();
-    // Forms that no parameter moves take no part.
-    let moving: Vec<usize> =
-        (0..squares.masses.len()).filter(|k| squares.components[*k].iter().any(|e| *e != zero)).collect();
-    // Each constraint force costs as much as a parameter at least.
-    if moving.len() > 4 * l || theirs < DENSE_COST {
+    if theirs < DENSE_COST {
         return None;
     }
-    let components: Vec<Vec<ExprId>> = moving.iter().map(|k| squares.components[*k].clone()).collect();
-    let edges = tree::spanning(bench, &components);
+    let differences = Differences::of_squares(bench, squares)?;
+    solve(bench, frame, differences, theirs, etas, forces)
+}
+
+/// Solves by constraint forces, where that is possible and promises to be cheaper than the mass matrix, of which the cost is
+/// estimated. `etas` and `forces` are those of the frame, the forces without `T` and `U`.
+pub(super) fn solve(
+    bench: &mut Workbench,
+    frame: &mut Frame,
+    Differences { masses, edges, rows, drifts, rest }: Differences,
+    theirs: usize,
+    etas: &[ExprId],
+    forces: &[ExprId],
+) -> Option<ByConstraintForces> {
+    let l = etas.len();
     let mut coupling: Vec<usize> = edges.iter().map(|edge| usize::from(edge.is_some())).collect();
     edges.iter().flatten().for_each(|edge| coupling[edge.parent] += 1);
-    let rows: Vec<Vector> =
-        (0..moving.len()).map(|k| tree::difference(bench, &components, k, edges[k].as_ref())).collect();
-    if rows.iter().map(Vector::len).sum::<usize>() > pattern::densest(l, moving.len()) {
-        return None;
-    }
     let Balance { inverse, null, divisors } = balance(bench, &rows, l, &coupling)?;
-    let weights: Vec<ExprId> = moving.iter().map(|k| bench.graph.powi(squares.masses[*k], -1)).collect();
-    let stretched = Stretched { edges: &edges, weights: &weights };
-    let across: Vec<Vector> = null.iter().map(|y| stretched.of(bench, y)).collect();
-    let along: Vec<Vector> = inverse.iter().map(|y| stretched.of(bench, y)).collect();
+    let weights: Vec<ExprId> = masses.iter().map(|mass| bench.graph.powi(*mass, -1)).collect();
+    let tree = Tree::new(&edges, &weights);
+    let across: Vec<Vector> = null.iter().map(|y| tree.of(bench, y)).collect();
+    let along: Vec<Vector> = inverse.iter().map(|y| tree.of(bench, y)).collect();
     let sparse = Pattern::of_products(&across, &along);
     let ours = sparse.cost();
     // An estimate: a solution that it finds a little more expensive may be cheaper.
@@ -143,25 +151,17 @@ pub(super) fn solve(
     // Forces, and differences of the accelerations at eta' = 0.
     let mut rest: Vec<Vec<ExprId>> = (0..l)
         .map(|s| {
-            let e = bench.graph.add(squares.rest[s], forces[s]);
+            let e = bench.graph.add(rest[s], forces[s]);
             // A limit on the work for an expression would make the members of a long family different.
             if bench.graph.nests_sums() { summands(bench, e) } else { terms(bench, e, etas) }
         })
         .collect();
     let constant = constant_reactions(bench, &rows, &inverse, &mut rest);
-    let stretched_constant = stretched.of(bench, &constant);
-    let known = stretched.rates(bench, &stretched_constant);
-    let accelerations: Vec<Vec<ExprId>> = (0..moving.len())
+    let constant = tree.of(bench, &constant);
+    let known = tree.rates(bench, &constant);
+    let accelerations: Vec<Vec<ExprId>> = (0..rows.len())
         .map(|k| {
-            let drift = squares.drifts[moving[k]];
-            let drift = match &edges[k] {
-                Some(Edge { parent, multiple }) => {
-                    let part = bench.graph.scale(squares.drifts[moving[*parent]], multiple);
-                    bench.graph.sub(drift, part)
-                }
-                None => drift,
-            };
-            let mut parts = vec![frame.motion.of(&mut bench.graph, drift)];
+            let mut parts = vec![frame.motion.of(&mut bench.graph, drifts[k])];
             for (s, e) in rows[k].entries() {
                 let rate = frame.motion.of(&mut bench.graph, *e);
                 parts.push(bench.graph.mul(rate, etas[*s]));
@@ -176,34 +176,34 @@ pub(super) fn solve(
 
     // N^T K N sigma = N^T c - N^T K P^T g
     let count = null.len();
-    let mut matrix = vec![vec![zero; count]; count];
+    let (columns, rests) = (Columns::new(&across), Columns::new(&along));
+    let mut matrix = vec![Vector::default(); count];
     for s in 0..count {
-        for t in 0..=s {
-            if across[s].meets(&across[t]) {
-                let entry = across[s].dot(bench, &across[t], &weights);
-                (matrix[s][t], matrix[t][s]) = (entry, entry);
-            }
+        for t in columns.meeting(&across[s]).into_iter().filter(|t| *t <= s) {
+            let entry = across[s].dot(bench, &across[t], &weights);
+            matrix[s].set(&bench.graph, t, entry);
+            matrix[t].set(&bench.graph, s, entry);
         }
     }
     let mut right: Vec<Vec<ExprId>> = Vec::new();
     for (y, own) in null.iter().zip(&across) {
         let sum = weighted(bench, y, &accelerations);
         let mut parts = terms(bench, sum, etas);
-        push_products(bench, &mut parts, own, &along, &weights, &rest, true);
+        push_products(bench, &mut parts, own, (&along, &rests), &weights, &rest, true);
         right.push(parts);
     }
     // eta' = P K N sigma + P K P^T g - P c
     let mut coupled: Vec<Vec<(usize, ExprId)>> = Vec::new();
     let mut direct: Vec<Vec<ExprId>> = Vec::new();
     for (y, own) in inverse.iter().zip(&along) {
-        let meeting = (0..count).filter(|t| own.meets(&across[*t]));
+        let meeting = columns.meeting(own).into_iter();
         coupled.push(meeting.map(|t| (t, own.dot(bench, &across[t], &weights))).collect());
         let sum = weighted(bench, y, &accelerations);
         let mut parts = terms(bench, sum, etas);
         for e in &mut parts {
             *e = bench.graph.neg(*e);
         }
-        push_products(bench, &mut parts, own, &along, &weights, &rest, false);
+        push_products(bench, &mut parts, own, (&along, &rests), &weights, &rest, false);
         direct.push(parts);
     }
     let mut system = System { matrix, right, coupled, direct };
@@ -235,16 +235,16 @@ fn push_products(
     bench: &mut Workbench,
     parts: &mut Vec<ExprId>,
     own: &Vector,
-    along: &[Vector],
+    (along, columns): (&[Vector], &Columns),
     weights: &[ExprId],
     rest: &[ExprId],
     negative: bool,
 ) {
-    for (other, g) in along.iter().zip(rest) {
-        if !bench.graph.is_zero(*g) && own.meets(other) {
-            let factor = own.dot(bench, other, weights);
+    for s in columns.meeting(own) {
+        if !bench.graph.is_zero(rest[s]) {
+            let factor = own.dot(bench, &along[s], weights);
             let factor = if negative { bench.graph.neg(factor) } else { factor };
-            parts.push(bench.graph.mul(factor, *g));
+            parts.push(bench.graph.mul(factor, rest[s]));
         }
     }
 }

@@ -1,7 +1,9 @@
 //! Estimates the cost of an elimination from the pattern of its matrix alone.
 
-use super::sparse::Vector;
+use std::collections::BTreeSet;
+
 use crate::algebra::ExprId;
+use crate::motion::sparse::{Columns, Vector};
 use crate::workbench::Workbench;
 
 /// Operations for an entry that depends on the state, and for a division.
@@ -10,7 +12,8 @@ const DIVISION: usize = 4;
 
 /// The non-zero entries of a symmetric matrix of equations, and operations beside the elimination.
 pub(super) struct Pattern {
-    neighbours: Vec<Vec<bool>>,
+    /// The rows that meet each row, itself left out.
+    neighbours: Vec<BTreeSet<usize>>,
     beside: usize,
 }
 
@@ -19,11 +22,13 @@ pub(super) fn of_mass(bench: &Workbench, mass: &[Vec<ExprId>]) -> Pattern {
     let l = mass.len();
     let graph = &bench.graph;
     let mut moving = 0;
-    let mut neighbours = vec![vec![false; l]; l];
+    let mut neighbours = vec![BTreeSet::new(); l];
     for s in 0..l {
         for t in 0..s {
-            let filled = !graph.is_zero(mass[s][t]);
-            (neighbours[s][t], neighbours[t][s]) = (filled, filled);
+            if !graph.is_zero(mass[s][t]) {
+                neighbours[s].insert(t);
+                neighbours[t].insert(s);
+            }
             moving += usize::from(!graph.roles(mass[s][t]).is_constant());
         }
         moving += usize::from(!graph.roles(mass[s][s]).is_constant());
@@ -39,19 +44,12 @@ pub(super) fn of_mass(bench: &Workbench, mass: &[Vec<ExprId>]) -> Pattern {
 impl Pattern {
     /// The pattern of the matrix of the constraint forces, whose entries are products of columns.
     pub(super) fn of_products(across: &[Vector], along: &[Vector]) -> Self {
-        let count = across.len();
-        let mut neighbours = vec![vec![false; count]; count];
-        let mut entries = 0;
-        for s in 0..count {
-            for t in 0..s {
-                let filled = across[s].meets(&across[t]);
-                (neighbours[s][t], neighbours[t][s]) = (filled, filled);
-                entries += usize::from(filled);
-            }
-        }
-        let outgoing: usize =
-            along.iter().map(|row| across.iter().filter(|column| column.meets(row)).count()).sum();
-        Pattern { neighbours, beside: ENTRY * (entries + outgoing + count) }
+        let columns = Columns::new(across);
+        let met_by = |(s, own)| columns.meeting(own).into_iter().filter(|t| *t != s).collect();
+        let neighbours: Vec<BTreeSet<usize>> = across.iter().enumerate().map(met_by).collect();
+        let entries = neighbours.iter().map(BTreeSet::len).sum::<usize>() / 2;
+        let outgoing: usize = along.iter().map(|row| columns.meeting(row).len()).sum();
+        Pattern { neighbours, beside: ENTRY * (entries + outgoing + across.len()) }
     }
 
     /// Operations of the elimination in the order of least fill, and beside it.
@@ -60,26 +58,18 @@ impl Pattern {
     }
 }
 
-/// Non-zero components in all differences beyond which nothing is gained.
-pub(super) fn densest(parameters: usize, forms: usize) -> usize {
-    parameters * forms / 2 + 2 * forms
-}
-
 /// Operations of an elimination in the order of least fill.
-pub(super) fn elimination_cost(mut neighbours: Vec<Vec<bool>>) -> usize {
-    let mut left: Vec<usize> = (0..neighbours.len()).collect();
+fn elimination_cost(mut neighbours: Vec<BTreeSet<usize>>) -> usize {
+    let mut left: BTreeSet<(usize, usize)> = neighbours.iter().map(BTreeSet::len).zip(0..).collect();
     let mut cost = 0;
-    while let Some(place) =
-        (0..left.len()).min_by_key(|place| left.iter().filter(|r| neighbours[left[*place]][**r]).count())
-    {
-        let k = left.remove(place);
-        let around: Vec<usize> = left.iter().copied().filter(|r| neighbours[k][*r]).collect();
-        let n = around.len();
+    while let Some((n, k)) = left.pop_first() {
         cost += DIVISION + n + n * (n + 1) + 4 * n;
-        for a in &around {
-            for b in &around {
-                neighbours[*a][*b] = a != b;
-            }
+        let around = core::mem::take(&mut neighbours[k]);
+        for r in &around {
+            left.remove(&(neighbours[*r].len(), *r));
+            neighbours[*r].remove(&k);
+            neighbours[*r].extend(around.iter().filter(|other| *other != r));
+            left.insert((neighbours[*r].len(), *r));
         }
     }
     cost

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use crate::algebra::{ExprId, FastMap, Node, Rational};
 use crate::motion::relative_angles::RelativeAngles;
 use crate::motion::solve::{Elimination, Naming, eliminate};
+use crate::motion::sparse::Vector;
 use crate::normal::{Limits, normal_coefficients};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
@@ -12,7 +13,7 @@ use crate::workbench::Workbench;
 /// The equations of the constraint forces, and the accelerations by them.
 pub(super) struct System {
     /// `N^T K N`.
-    pub(super) matrix: Vec<Vec<ExprId>>,
+    pub(super) matrix: Vec<Vector>,
     /// Terms of the right sides.
     pub(super) right: Vec<Vec<ExprId>>,
     /// The rows of `P K N`.
@@ -24,8 +25,9 @@ pub(super) struct System {
 impl System {
     /// The coefficients of the constraint forces.
     pub(super) fn entries(&self) -> Vec<ExprId> {
-        let lower = self.matrix.iter().enumerate().flat_map(|(s, row)| &row[..=s]);
-        lower.copied().chain(self.coupled.iter().flatten().map(|(_, e)| *e)).collect()
+        let rows = self.matrix.iter().enumerate();
+        let lower = rows.flat_map(|(s, row)| row.entries().iter().filter(move |(t, _)| *t <= s));
+        lower.chain(self.coupled.iter().flatten()).map(|(_, e)| *e).collect()
     }
 
     pub(super) fn cost(&self, bench: &Workbench, beside: &[ExprId]) -> u64 {
@@ -47,9 +49,10 @@ impl System {
             |bench: &mut Workbench, e: ExprId| between.within(bench, e, |bench| bench.tidy(e)).unwrap_or(e);
         let mut matrix = self.matrix.clone();
         for (s, row) in self.matrix.iter().enumerate() {
-            for (t, e) in row[..=s].iter().enumerate() {
+            for (t, e) in row.entries().iter().filter(|(t, _)| *t <= s) {
                 let entry = tidy(bench, *e);
-                (matrix[s][t], matrix[t][s]) = (entry, entry);
+                matrix[s].set(&bench.graph, *t, entry);
+                matrix[*t].set(&bench.graph, s, entry);
             }
         }
         let mut coupled = self.coupled.clone();
@@ -74,11 +77,11 @@ impl System {
             let mut next = 0;
             while let Some(s) = block.get(next).copied() {
                 next += 1;
-                for t in 0..count {
-                    if flips[t].is_none() && !bench.graph.is_zero(self.matrix[s][t]) {
-                        let same = is_negative(bench, self.matrix[s][t]);
-                        flips[t] = flips[s].map(|flip| flip == same);
-                        block.push(t);
+                for (t, e) in self.matrix[s].entries() {
+                    if flips[*t].is_none() {
+                        let same = is_negative(bench, *e);
+                        flips[*t] = flips[s].map(|flip| flip == same);
+                        block.push(*t);
                     }
                 }
             }
@@ -92,10 +95,9 @@ impl System {
         }
         let flips: Vec<bool> = flips.into_iter().map(|flip| flip == Some(true)).collect();
         for (s, row) in self.matrix.iter_mut().enumerate() {
-            row.iter_mut()
-                .zip(&flips)
-                .filter(|(_, flip)| **flip != flips[s])
-                .for_each(|(e, _)| *e = bench.graph.neg(*e));
+            for (_, e) in row.entries_mut().filter(|(t, _)| flips[*t] != flips[s]) {
+                *e = bench.graph.neg(*e);
+            }
         }
         let right = self.right.iter_mut().zip(&flips).filter(|(_, flip)| **flip).flat_map(|(row, _)| row);
         let coupled = self.coupled.iter_mut().flatten().filter(|(t, _)| flips[*t]).map(|(_, e)| e);
@@ -106,13 +108,12 @@ impl System {
     pub(super) fn solved(mut self, bench: &mut Workbench) -> Option<Vec<ExprId>> {
         self.signed(bench);
         // One scale for all constraint forces, and one for their equations: both leave ones where there were constants.
-        let scale = most_common(bench, self.matrix.iter().flatten().copied());
+        let entries = self.matrix.iter().flat_map(Vector::entries);
+        let scale = most_common(bench, entries.map(|(_, e)| *e));
         let size = most_common(bench, self.right.iter().flatten().copied());
-        for entry in self.matrix.iter_mut().flatten() {
-            if !bench.graph.is_zero(*entry) {
-                let quotient = bench.graph.div(*entry, scale);
-                *entry = bench.tidy(quotient);
-            }
+        for (_, entry) in self.matrix.iter_mut().flat_map(Vector::entries_mut) {
+            let quotient = bench.graph.div(*entry, scale);
+            *entry = bench.tidy(quotient);
         }
         let right: Vec<ExprId> = self
             .right
@@ -203,27 +204,28 @@ fn most_common(bench: &mut Workbench, es: impl Iterator<Item = ExprId>) -> ExprI
 }
 
 /// Solves a positive definite system in the order of least fill; among equals that which waits least for others.
-fn by_least_fill(bench: &mut Workbench, matrix: Vec<Vec<ExprId>>, right: Vec<ExprId>) -> Option<Vec<ExprId>> {
+fn by_least_fill(bench: &mut Workbench, matrix: Vec<Vector>, right: Vec<ExprId>) -> Option<Vec<ExprId>> {
     let mut waiting = vec![0_usize; right.len()];
-    let count = right.len();
-    let filled = |row: &[ExprId], s: usize| -> BTreeSet<usize> {
-        (0..count).filter(|t| *t != s && !bench.graph.is_zero(row[*t])).collect()
+    let others = |(s, row): (usize, &Vector)| -> BTreeSet<usize> {
+        row.entries().iter().map(|(t, _)| *t).filter(|t| *t != s).collect()
     };
     // Those that are left and meet each row; whoever leaves joins its neighbours.
-    let mut neighbours: Vec<BTreeSet<usize>> =
-        matrix.iter().enumerate().map(|(s, row)| filled(row, s)).collect();
+    let mut neighbours: Vec<BTreeSet<usize>> = matrix.iter().enumerate().map(others).collect();
+    let mut left: BTreeSet<(usize, usize, usize)> =
+        neighbours.iter().enumerate().map(|(k, around)| (around.len(), 0, k)).collect();
     // A long family is gone through in one direction, so that every member is eliminated in the same way.
     let one_way = bench.graph.nests_sums();
-    let choose = |_: &mut Workbench, _: &[Vec<ExprId>], left: &[usize]| {
-        let k = left
-            .iter()
-            .copied()
-            .min_by_key(|k| (neighbours[*k].len(), if one_way { 0 } else { waiting[*k] }, *k))?;
+    let choose = |_: &mut Workbench, _: &[Vector], _: &[usize]| {
+        let (.., k) = left.pop_first()?;
         let around = core::mem::take(&mut neighbours[k]);
         for r in &around {
-            waiting[*r] = waiting[*r].max(waiting[k] + 1);
+            left.remove(&(neighbours[*r].len(), waiting[*r], *r));
+            if !one_way {
+                waiting[*r] = waiting[*r].max(waiting[k] + 1);
+            }
             neighbours[*r].remove(&k);
             neighbours[*r].extend(around.iter().filter(|other| *other != r));
+            left.insert((neighbours[*r].len(), waiting[*r], *r));
         }
         Some(k)
     };

@@ -1,15 +1,112 @@
 //! The forms of the kinetic energy as differences from each other: a spanning tree in which these are short.
 
-use super::sparse::Vector;
 use crate::algebra::{ExprId, Rational};
+use crate::motion::projection::Squares;
+use crate::motion::sparse::Vector;
+use crate::motion::thresholds::MOST_FORMS;
 use crate::workbench::Workbench;
+
+/// The forms of the kinetic energy as differences, `S u = B eta + ..`, with what the equations of their squares have beside.
+pub(in crate::motion) struct Differences {
+    /// `m_k`.
+    pub(in crate::motion) masses: Vec<ExprId>,
+    /// The form that each form is taken relative to; none is rest.
+    pub(in crate::motion) edges: Vec<Option<Edge>>,
+    /// The rows of `B`.
+    pub(in crate::motion) rows: Vec<Vector>,
+    /// The components of the differences along `X_0`.
+    pub(in crate::motion) drifts: Vec<ExprId>,
+    /// `g_s`, as in [`Squares`].
+    pub(in crate::motion) rest: Vec<ExprId>,
+}
 
 /// A form less a multiple of another one.
 #[derive(Clone)]
-pub(super) struct Edge {
-    pub(super) parent: usize,
+pub(in crate::motion) struct Edge {
+    pub(in crate::motion) parent: usize,
     /// The multiple, a number: forms are given up to a factor.
-    pub(super) multiple: Rational,
+    pub(in crate::motion) multiple: Rational,
+}
+
+impl Differences {
+    /// The forms of squares relative to each other; `None` where they are too many for the parameters, or nothing is gained.
+    pub(super) fn of_squares(bench: &mut Workbench, squares: &Squares) -> Option<Self> {
+        // Each constraint force costs as much as a parameter at least.
+        let is_moving = |row: &&Vec<ExprId>| row.iter().any(|e| !bench.graph.is_zero(*e));
+        if squares.components.iter().filter(is_moving).count() > MOST_FORMS * squares.rest.len() {
+            return None;
+        }
+        let differences = Differences {
+            masses: squares.masses.clone(),
+            edges: vec![None; squares.masses.len()],
+            rows: squares.components.iter().map(|row| Vector::of_list(&bench.graph, row)).collect(),
+            drifts: squares.drifts.clone(),
+            rest: squares.rest.clone(),
+        };
+        differences.joined(bench)
+    }
+
+    /// The same with forms that were relative to rest taken relative to each other; `None` where nothing is gained.
+    pub(in crate::motion) fn joined(self, bench: &mut Workbench) -> Option<Self> {
+        let mut forms = self.moving(bench);
+        let roots: Vec<usize> = (0..forms.rows.len()).filter(|k| forms.edges[*k].is_none()).collect();
+        let components: Vec<Vector> = roots.iter().map(|k| forms.rows[*k].clone()).collect();
+        let drifts: Vec<ExprId> = roots.iter().map(|k| forms.drifts[*k]).collect();
+        for (own, edge) in spanning(bench, &components).into_iter().enumerate() {
+            let Some(Edge { parent, multiple }) = edge else { continue };
+            let k = roots[own];
+            forms.rows[k] = difference(bench, [&components[own], &components[parent]], &multiple);
+            let part = bench.graph.scale(drifts[parent], &multiple);
+            forms.drifts[k] = bench.graph.sub(drifts[own], part);
+            forms.edges[k] = Some(Edge { parent: roots[parent], multiple });
+        }
+        let components = forms.rows.iter().map(Vector::len).sum::<usize>();
+        (components <= densest(forms.rest.len(), forms.rows.len())).then_some(forms)
+    }
+
+    /// The forms that parameters move. Relative to one that does not move, a form is so fast as it is relative to rest.
+    fn moving(mut self, bench: &mut Workbench) -> Self {
+        let moves = |mut k: usize| loop {
+            match &self.edges[k] {
+                _ if self.rows[k].len() > 0 => return true,
+                Some(edge) => k = edge.parent,
+                None => return false,
+            }
+        };
+        let moves: Vec<bool> = (0..self.rows.len()).map(moves).collect();
+        let kept: Vec<usize> = (0..self.rows.len()).filter(|k| moves[*k]).collect();
+        let mut drifts = self.drifts.clone();
+        for k in &kept {
+            let Some(edge) = self.edges[*k].take_if(|edge| !moves[edge.parent]) else { continue };
+            let (mut driver, mut multiple) = (Some(edge.parent), edge.multiple);
+            while let Some(parent) = driver {
+                let driven = bench.graph.scale(self.drifts[parent], &multiple);
+                drifts[*k] = bench.graph.add(drifts[*k], driven);
+                driver = self.edges[parent].as_ref().map(|above| {
+                    multiple = &multiple * &above.multiple;
+                    above.parent
+                });
+            }
+        }
+        let mut place = vec![0; self.rows.len()];
+        kept.iter().enumerate().for_each(|(new, k)| place[*k] = new);
+        let edge = |k: &usize| {
+            let Edge { parent, multiple } = self.edges[*k].clone()?;
+            Some(Edge { parent: place[parent], multiple })
+        };
+        Differences {
+            masses: kept.iter().map(|k| self.masses[*k]).collect(),
+            edges: kept.iter().map(edge).collect(),
+            rows: kept.iter().map(|k| self.rows[*k].clone()).collect(),
+            drifts: kept.iter().map(|k| drifts[*k]).collect(),
+            rest: self.rest,
+        }
+    }
+}
+
+/// Non-zero components in all differences beyond which nothing is gained.
+fn densest(parameters: usize, forms: usize) -> usize {
+    parameters * forms / 2 + 2 * forms
 }
 
 /// A component, as a number times the rest.
@@ -23,15 +120,13 @@ struct Component {
 ///
 /// The tree has the fewest components in all differences together (Prim's algorithm from rest): each particle of a
 /// chain moves relative to the one before with the rate of one link.
-pub(super) fn spanning(bench: &mut Workbench, rows: &[Vec<ExprId>]) -> Vec<Option<Edge>> {
-    let zero = bench.graph.zero();
+fn spanning(bench: &mut Workbench, rows: &[Vector]) -> Vec<Option<Edge>> {
     let rows: Vec<Vec<(usize, Component)>> = rows
         .iter()
         .map(|row| {
-            let moving = row.iter().enumerate().filter(|(_, e)| **e != zero);
-            let parts = moving.map(|(s, e)| {
+            let parts = row.entries().iter().map(|(s, e)| {
                 let (content, rest) = bench.graph.split_content(*e);
-                (s, Component { e: *e, content, rest })
+                (*s, Component { e: *e, content, rest })
             });
             parts.collect()
         })
@@ -92,26 +187,19 @@ fn in_common(own: &[(usize, Component)], other: &[(usize, Component)]) -> ((usiz
     ((both, best.1), best.0)
 }
 
-/// The components of a form relative to its parent.
-pub(super) fn difference(
-    bench: &mut Workbench,
-    rows: &[Vec<ExprId>],
-    k: usize,
-    edge: Option<&Edge>,
-) -> Vector {
-    let mut found = Vector::default();
-    for (s, e) in rows[k].iter().enumerate() {
-        let mut entry = *e;
-        if let Some(Edge { parent, multiple }) = edge {
-            let part = bench.graph.scale(rows[*parent][s], multiple);
-            if part != entry && !bench.graph.is_zero(part) {
-                let difference = bench.graph.sub(entry, part);
-                entry = bench.tidy(difference);
-            } else if part == entry {
-                continue;
-            }
+/// The components of a form relative to a multiple of another one.
+fn difference(bench: &mut Workbench, [form, other]: [&Vector; 2], multiple: &Rational) -> Vector {
+    let mut found = form.clone();
+    for (s, e) in other.entries() {
+        let part = bench.graph.scale(*e, multiple);
+        let own = form.get(*s).unwrap_or(bench.graph.zero());
+        if part == own {
+            found.remove(*s);
+        } else {
+            let difference = bench.graph.sub(own, part);
+            let difference = bench.tidy(difference);
+            found.set(&bench.graph, *s, difference);
         }
-        found.add(bench, s, entry);
     }
     found
 }

@@ -177,6 +177,39 @@ fn is_near(code: (&[Instruction], &[usize]), found: &Found, groups: &[Group], a:
     !users.has_way_around(a, b) && !users.has_way_around(b, a)
 }
 
+/// The distances from the turns of classes to the results of the function that are their values, of those of which all are.
+fn output_offsets(
+    instructions: &[Instruction],
+    (outputs, values): (&[Value], usize),
+    found: &Found,
+) -> BTreeMap<(usize, bool), i64> {
+    let mut places: Vec<Vec<i64>> = vec![Vec::new(); values];
+    for (place, output) in (0..).zip(outputs) {
+        places[output.index()].push(place);
+    }
+    let mut offsets = BTreeMap::new();
+    for (index, class) in found.classes.iter().enumerate() {
+        for second in [false, true] {
+            let value = |place: &usize| {
+                let Instruction { result, operation } = &instructions[*place];
+                match operation {
+                    Operation::SinCos { cosine, .. } if second => *cosine,
+                    _ => *result,
+                }
+            };
+            let Some(first) = class.places.first() else { continue };
+            let offset = places[value(first).index()].iter().map(|place| place - class.from).find(|offset| {
+                let mut turns = (class.from..).zip(&class.places);
+                turns.all(|(turn, place)| outputs.get((turn + offset) as usize) == Some(&value(place)))
+            });
+            if let Some(offset) = offset {
+                offsets.insert((index, second), offset);
+            }
+        }
+    }
+    offsets
+}
+
 /// The instruction that makes each value.
 fn makers(instructions: &[Instruction], values: usize) -> Vec<usize> {
     let mut maker = vec![0; values];
@@ -268,6 +301,8 @@ impl<'a> Below<'a> {
 struct Writer<'a> {
     below: Below<'a>,
     outputs: &'a [Value],
+    /// The distances from the turns of classes to the results of the function that are their values, if all of them are.
+    output_offsets: BTreeMap<(usize, bool), i64>,
     /// The arrays of classes and their least turn.
     arrays: BTreeMap<(usize, bool), (usize, i64)>,
     rolled: Rolled,
@@ -284,6 +319,7 @@ impl<'a> Writer<'a> {
     ) -> Self {
         let below = Below::new(instructions, maker, found, groups);
         Writer {
+            output_offsets: output_offsets(instructions, (outputs, values), found),
             below,
             outputs,
             arrays: BTreeMap::new(),
@@ -370,20 +406,7 @@ impl<'a> Writer<'a> {
 
     /// The distance from the turns of a class to the results of the function that are its values, if all of them are.
     fn output_offset(&self, class: usize, second: bool) -> Option<i64> {
-        let own = &self.below.found.classes[class];
-        let value = |turn: i64| {
-            let Instruction { result, operation } =
-                &self.below.instructions[own.places[(turn - own.from) as usize]];
-            match operation {
-                Operation::SinCos { cosine, .. } if second => *cosine,
-                _ => *result,
-            }
-        };
-        let first = value(own.from);
-        let places = self.outputs.iter().enumerate().filter(|(_, output)| **output == first);
-        places.map(|(place, _)| place as i64 - own.from).find(|offset| {
-            (own.from..own.to()).all(|turn| self.outputs.get((turn + offset) as usize) == Some(&value(turn)))
-        })
+        self.output_offsets.get(&(class, second)).copied()
     }
 
     /// Whether a loop writes a value to every result that it is.

@@ -15,7 +15,7 @@ pub(super) fn is_equal(
         is_made: vec![false; values],
         is_named: vec![false; values],
         arrays: rolled.arrays.iter().map(|length| vec![None; *length]).collect(),
-        by_operands: Default::default(),
+        users: vec![Vec::new(); values],
         loads: Default::default(),
     };
     known.prepare();
@@ -34,8 +34,8 @@ struct Simulation<'a> {
     /// Whether a value can be read by its name.
     is_named: Vec<bool>,
     arrays: Vec<Vec<Option<Value>>>,
-    /// The instructions with some first operand.
-    by_operands: std::collections::BTreeMap<Value, Vec<usize>>,
+    /// The instructions with each operand.
+    users: Vec<Vec<usize>>,
     /// The values of what the function is given.
     loads: std::collections::BTreeMap<(char, usize), Value>,
 }
@@ -56,7 +56,7 @@ impl Simulation<'_> {
                 self.is_named[result.index()] = true;
             }
             for operand in operation.operands() {
-                self.by_operands.entry(operand).or_default().push(place);
+                self.users[operand.index()].push(place);
             }
         }
     }
@@ -155,7 +155,8 @@ impl Simulation<'_> {
 
     /// The instruction that does an operation on these operands.
     fn found(&self, like: &Operation, operands: &[Value]) -> Option<usize> {
-        let places = self.by_operands.get(operands.first()?)?;
+        let users = operands.iter().map(|operand| &self.users[operand.index()]);
+        let places = users.min_by_key(|places| places.len())?;
         places.iter().copied().find(|place| {
             let operation = &self.instructions[*place].operation;
             let is_commutative = matches!(operation, Operation::Add(..) | Operation::Mul(..));
