@@ -202,20 +202,21 @@ pub mod __private {
         mechanical_component, mechanical_component_with, mechanical_system, mechanical_system_with, page,
     };
     pub use guen_runtime::checks::{
-        self, Bound, check_constants, check_definite, check_fixed, check_hoisted, check_inertia,
-        check_limits, check_mass, check_nonnegative, check_nonzero, check_pivot, check_positive,
-        check_within, clamped, condition, drift, first, furthest, head, joined, largest, placed, rounded,
+        self, Bound, check_constants, check_definite, check_entries, check_fixed, check_hoisted,
+        check_inertia, check_limits, check_mass, check_nonnegative, check_nonzero, check_pivot,
+        check_positive, check_within, clamped, condition, drift, first, furthest, head, joined, largest,
+        placed, rounded,
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
         Actuated, AuxiliaryStates, Bodies, Body, Catastatic, Class, Coefficient, Coefficients, Conservative,
         ConstantsError, Convolutions, Cost, Derived, Differentiable, Displacement, DrivenSeries, Dual,
-        EachLane, HIGHEST_ORDER, Hoisted, Holonomic, IncompleteLieGroup, InputLaw, InputRecords, Instances,
-        Invariants, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable, Linearization,
-        Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, OutputMap, Positions,
+        EachLane, EntryNames, HIGHEST_ORDER, Hoisted, Holonomic, IncompleteLieGroup, InputLaw, InputRecords,
+        Instances, Invariants, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable,
+        Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, OutputMap, Positions,
         PositionsError, PreparedValues, Real, Report, ReportSection, Rheonomic, RunningError, Scleronomic,
         Shape, Simulate, Smooth, Source, Sourced, System, TaylorSeries, Undriven, Unprepared, WithInputs,
-        WithScalar, linearized, nalgebra_conversions, seeded,
+        WithScalar, entries, linearized, nalgebra_conversions, seeded,
     };
     pub use guen_runtime::{
         actuated, condition, conserved, contact_mode, contact_states, differentiable, domain, dynamics,

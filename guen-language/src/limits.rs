@@ -11,11 +11,11 @@ pub const MAX_INDEX_OPERATIONS: usize = 64;
 /// The most operations of a condition on indices, those of its indices aside.
 pub const MAX_CONDITION_OPERATIONS: usize = 64;
 
-/// The most coordinates of a system: the brackets grow as the cube of this number.
-pub const MAX_COORDINATES: usize = 200;
+/// The most coordinates of a system. The derivation has a limit of its own for those that are coupled densely.
+pub const MAX_COORDINATES: usize = 1000;
 
 /// The most entries of any other section, and definitions by `let` and `fn`.
-pub const MAX_ENTRIES: usize = 1000;
+pub const MAX_ENTRIES: usize = 5000;
 
 /// The most sums of products of a Taylor series: while one is computed they are on the stack.
 pub const MAX_SERIES_SUMS: usize = 1_500;

@@ -66,6 +66,7 @@ pub use functions::table::Table;
 pub use generated::checks;
 pub use generated::cost::Cost;
 pub use generated::derived::Derived;
+pub use generated::entries::{EntryNames, entries, with_entries};
 pub use numbers::dual::Dual;
 pub use numbers::lanes;
 pub use numbers::lift::Lift;

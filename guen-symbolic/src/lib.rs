@@ -29,19 +29,19 @@ pub use geometry::{
     independent_rows,
 };
 pub use motion::{
-    BodyNode, Class, Component, Dependence, Derivation, DerivationError, Energies, Equations,
-    FirstOrderState, Force, FormShape, Formulated, Frame, FrameId, FrameNode, Holonomic, KineticTerm,
-    Mechanics, Motion, MotionSymbol, Multibody, NotQuadratic, Place, RigidBody, Solution, SystemGraph, Turn,
-    Velocity, VelocityForm, VelocityPartials, WRITTEN_OUT_PARAMETERS, decompose, elimination_text,
-    equations_by_definition, formulation_names,
+    BodyNode, COUPLED_COORDINATES, Class, Component, Dependence, Derivation, DerivationError, Energies,
+    Equations, FirstOrderState, Force, FormShape, Formulated, Frame, FrameId, FrameNode, Holonomic,
+    KineticTerm, Mechanics, Motion, MotionSymbol, Multibody, NotQuadratic, Place, RigidBody, Solution,
+    SystemGraph, Turn, Velocity, VelocityForm, VelocityPartials, WRITTEN_OUT_PARAMETERS, decompose,
+    elimination_text, equations_by_definition, formulation_names,
 };
 pub use normal::{Limits, normal_coefficients, normal_form};
 pub use print::{Contracted, Notation, greek_letter, latex_name};
 pub use program::{
     Arithmetic, ArrayIndex, Arrays, Carried, CarriedFunction, Formulation, FunctionProgram, Instruction,
     LARGEST_DIFFERENTIATED, LARGEST_JACOBIAN, Line, Loop, NotAnalytic, NotCarried, Operand, Operation,
-    OperationCount, Pattern, ProgramBuilder, Programs, Rolled, RolledStep, SeriesProgram, SeriesStep, Source,
-    Start, Value, evaluate_function, evaluate_prepare, weighted_cost,
+    OperationCount, Pattern, Places, ProgramBuilder, Programs, Rolled, RolledStep, SeriesProgram, SeriesStep,
+    Source, Start, Value, evaluate_function, evaluate_prepare, weighted_cost,
 };
 pub use workbench::{MAX_WORK, Workbench};
 pub use zero::{Real, Redundant, Verdict, ZeroTest, evaluate, evaluate_f64};

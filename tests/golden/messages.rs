@@ -132,7 +132,16 @@ fn reports(tokens: TokenStream) -> Vec<FaultReport> {
             assert!(!fine, "a stage failed without a message: {}", other.is_none());
             let name = &declaration.name.text;
             let is_taken = names::is_generated_item(name) || name == "Carried";
-            assert_eq!(expand_outline(&declaration).is_empty(), is_taken, "the outline of {name}");
+            // Nothing is derived of such a system, its outline neither.
+            let is_large = reports
+                .iter()
+                .flat_map(|report| report.faults())
+                .any(|fault| fault.message().contains("is not sparse"));
+            assert_eq!(
+                expand_outline(&declaration).is_empty(),
+                is_taken || is_large,
+                "the outline of {name}"
+            );
         }
     }
     reports

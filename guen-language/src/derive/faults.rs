@@ -1,6 +1,8 @@
 //! Why a checked model has no equations of motion, in the user's names.
 
-use guen_symbolic::{Derivation, DerivationError, ExprId, MAX_WORK, SingularForms, Verdict};
+use guen_symbolic::{
+    COUPLED_COORDINATES, Derivation, DerivationError, ExprId, MAX_WORK, SingularForms, Verdict,
+};
 
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{FormKind, Model};
@@ -27,6 +29,16 @@ pub(super) fn report(model: &mut Model<'_>, error: DerivationError, faults: &mut
                 Fault::new(model.declaration.name.span(), "the equations of this system are too large to derive")
                     .note(format!("the derivation was given up after {MAX_WORK} steps"))
                     .help("choose parameters in which the velocities are short, or coordinates with fewer products of angles"),
+            );
+        }
+        DerivationError::TooManyCoordinates => {
+            let text = format!(
+                "more than {COUPLED_COORDINATES} coordinates, and what they have between them is not sparse"
+            );
+            faults.report(
+                Fault::new(model.declaration.name.span(), text)
+                    .note("beyond this number a system has no constraints and no bodies that turn, and its kinetic energy is that of particles, each of which moves relative to few others")
+                    .help("declare fewer coordinates, or particles in their place"),
             );
         }
         DerivationError::RoutesDisagree { equation } => {

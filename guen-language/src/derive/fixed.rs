@@ -53,7 +53,7 @@ pub(super) fn derivation(
         Err(DerivationError::SingularMass(_)) => {
             scene.fixes.last().map(|fix| faults.report(singular(fix, &Trouble::Inertia)));
         }
-        Err(DerivationError::TooLarge) => {
+        Err(DerivationError::TooLarge | DerivationError::TooManyCoordinates) => {
             let text = format!("the equations of scene `{name}` are too large to derive");
             faults.report(Fault::new(name.span(), text));
         }

@@ -7,7 +7,6 @@ use quote::{format_ident, quote, quote_spanned};
 use super::documentation;
 use super::fields::{Fields, Tree};
 use super::formula::text_of;
-use super::layout::is_derived;
 use super::supplied::Supplied;
 use super::text::tokens;
 use crate::diagnostics::collect;
@@ -82,7 +81,7 @@ fn leaf<'a>(
             let kind = &kinds[function];
             quote!(#kind)
         }
-        None if is_derived(model, &model.constants[place]) => quote!(#private::Derived<R>),
+        None if model.constants[place].is_derived => quote!(#private::Derived<R>),
         None => quote!(R),
     }
 }
@@ -242,7 +241,7 @@ fn default(model: &Model<'_>, tree: &Tree, private: &TokenStream) -> TokenStream
     match tree {
         Tree::Leaf(place) => {
             let constant = &model.constants[*place];
-            if is_derived(model, constant) {
+            if constant.is_derived {
                 return quote!(#private::Derived::Follows);
             }
             let unknown = |_: SymbolId| String::new();

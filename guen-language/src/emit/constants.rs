@@ -1,12 +1,14 @@
 //! The struct of physical constants, `prepare`, and the prepared system.
 
+use std::ops::Range;
+
 use guen_symbolic::ExprId;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::fields::{Fields, Tree, plain};
+use super::fields::{Entry, Fields, Tree, plain};
 use super::formula::default_text;
-use super::layout::{Layout, REAL, is_derived, variable_name};
+use super::layout::{Layout, REAL, variable_name};
 use super::parts::{self, Modules};
 use super::text::tokens;
 use super::{documentation, integrated, limits, motion, physical, with_scalar};
@@ -28,9 +30,8 @@ struct Field {
 
 /// The values of the constants of a struct, where those that are derived are computed.
 pub(super) fn values(layout: &Layout, structure: &Fields, of: &TokenStream) -> TokenStream {
-    let names = &structure.accesses()[..structure.constants()];
     match layout.derived.is_empty() {
-        true => quote!([#(#of.#names),*]),
+        true => structure.list(&|_| false, &|Entry { access, .. }| quote!(#of.#access)),
         false => quote!(#of.__guen_values()),
     }
 }
@@ -50,7 +51,7 @@ fn fields(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<Field> {
                 model.units.get(&c.name.text),
             ),
             bound: c.bound,
-            default: c.default.filter(|_| is_derived || !self::is_derived(model, c)),
+            default: c.default.filter(|_| is_derived || !c.is_derived),
             is_derived,
         }
     });
@@ -94,7 +95,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
         .collect();
     let written = subject.scene().map_or(&subject.model.declaration.docs, |(scene, _)| &scene.docs);
     let (count, hoisted) = (layout.constants, layout.hoisted);
-    let checks = checks(subject, &fields);
+    let checks = checks(subject, &fields, &structure);
     let constructors = constructors(subject, layout, &fields, &structure);
     // A system without constants still has a type parameter to carry; its name is a value, as that of a unit struct.
     let marker = structure.has_marker().then(|| quote!(real: ::core::marker::PhantomData<#real>,));
@@ -128,17 +129,18 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
             Some(quote!(, follows #count)),
         ),
     };
-    let mut given: Vec<TokenStream> = (0..count).map(|i| {
-        let place = layout.derived.iter().position(|derived| *derived == i);
-        match place {
-            None => quote!(self.constants[#i]),
-            Some(k) => quote! {
-                if self.follows[#k] { __guen::Derived::Follows } else { __guen::Derived::Set(self.constants[#i]) }
-            },
-        }
-    }).collect();
-    given.extend(supplied.prepared(&quote!(self.hoisted)));
-    let given = structure.literal(&given);
+    let is_derived = |place: usize| layout.derived.contains(&place);
+    let given = |Entry { place, index, .. }: &Entry| match layout
+        .derived
+        .iter()
+        .position(|derived| derived == place)
+    {
+        None => quote!(self.constants[#index]),
+        Some(k) => quote! {
+            if self.follows[#k] { __guen::Derived::Follows } else { __guen::Derived::Set(self.constants[#index]) }
+        },
+    };
+    let given = structure.literal_of(&is_derived, &given, supplied.prepared(&quote!(self.hoisted)));
     let functions = (!supplied.is_empty()).then(|| {
         let functions = supplied.tuple(&structure, &quote!(self));
         quote!(, functions #functions)
@@ -261,19 +263,8 @@ fn resolution(
 }
 
 /// Finite, and inside the bound, each constant.
-fn checks(subject: &Subject<'_, '_>, fields: &[Field]) -> TokenStream {
-    let bounds = fields.iter().map(|field| {
-        let name = &field.name;
-        let bound = match field.bound {
-            None => quote!(None),
-            Some(bound) => {
-                let (words, kind, _) = words(name, bound);
-                quote!(#kind(#words))
-            }
-        };
-        quote!((#name, __guen::Bound::#bound))
-    });
-    let given = quote!(__guen::check_constants(&constants, &[#(#bounds),*])?;);
+fn checks(subject: &Subject<'_, '_>, fields: &[Field], structure: &Fields) -> TokenStream {
+    let given = checks_of_bounds(fields, structure);
     // A constant that is fixed to a number was checked when it was declared; one that is made of others is checked here.
     let graph = &subject.model.bench.graph;
     let fixes = subject.scene().map_or(&[][..], |(_, facts)| &facts.fixes);
@@ -338,6 +329,56 @@ fn check_bound(name: &str, bound: BoundKind, value: &TokenStream) -> TokenStream
     quote!(__guen::#check(#value, #name, #words)?;)
 }
 
+/// The bounds of all constants; long arrays whose entries have one bound are checked entry by entry.
+fn checks_of_bounds(fields: &[Field], structure: &Fields) -> TokenStream {
+    let bound = |field: &Field| {
+        let name = &field.name;
+        let bound = match field.bound {
+            None => quote!(None),
+            Some(bound) => {
+                let (words, kind, _) = words(name, bound);
+                quote!(#kind(#words))
+            }
+        };
+        quote!((#name, __guen::Bound::#bound))
+    };
+    let mut runs: Vec<Range<usize>> =
+        structure.trees().filter_map(|(_, tree)| tree.long_run(&|_| false)).collect();
+    runs.retain(|run| fields[run.clone()].iter().all(|field| field.bound == fields[run.start].bound));
+    if runs.is_empty() {
+        let bounds = fields.iter().map(bound);
+        return quote!(__guen::check_constants(&constants, &[#(#bounds),*])?;);
+    }
+    runs.sort_by_key(|run| run.start);
+    runs.push(fields.len()..fields.len());
+    let mut code = TokenStream::new();
+    let mut from = 0;
+    for run in runs {
+        if from < run.start {
+            let (places, bounds) = (from..run.start, fields[from..run.start].iter().map(bound));
+            code.extend(quote!(__guen::check_constants(&[#(constants[#places]),*], &[#(#bounds),*])?;));
+        }
+        from = run.end;
+        let Some(last) = fields[run.clone()].last() else { continue };
+        let (start, end, count) = (run.start, run.end, run.len());
+        let (before, _) = last.name.split_at(last.name.rfind('[').map_or(0, |at| at + 1));
+        let (after, kind) = match last.bound {
+            None => ("]".to_owned(), quote!(|_| __guen::Bound::None)),
+            Some(bound) => {
+                let (after, kind, _) = words("]", bound);
+                (after, quote!(__guen::Bound::#kind))
+            }
+        };
+        let (length, longest) = (last.name.len(), last.name.len() - 1 + after.len());
+        code.extend(quote! {{
+            const NAMES: &__guen::EntryNames<#count, #length> = &__guen::EntryNames::new(#before, 0, "]");
+            const WORDS: &__guen::EntryNames<#count, #longest> = &__guen::EntryNames::new(#before, 0, #after);
+            __guen::check_entries(&constants[#start..#end], NAMES, WORDS, #kind)?;
+        }});
+    }
+    code
+}
+
 /// A bound in words, its variant of `Bound`, and the function that checks it.
 fn words(name: &str, bound: BoundKind) -> (String, TokenStream, TokenStream) {
     let (kind, check) = match bound {
@@ -371,13 +412,19 @@ fn constructors(
             Some(default) => tokens(&default_text(subject, default)),
         })
         .collect();
+    // One number for all entries.
+    let is_equal =
+        |own: &[Field]| own.iter().all(|field| field.default == own[0].default && !field.is_derived);
     let (mut required, mut kinds) = (Vec::new(), Vec::new());
     let mut values = Vec::new();
     for (name, tree) in structure.trees() {
         let mut places = Vec::new();
         tree.leaves(&mut places);
         if !places.iter().any(is_given) {
-            let value = tree.literal(&defaults);
+            let value = match tree.long_run(&|_| false).filter(|run| is_equal(&fields[run.clone()])) {
+                Some(run) => tree.filled(&defaults[run.start]),
+                None => tree.literal(&|place| defaults[place].clone()),
+            };
             values.push(quote!(#name: #value));
             continue;
         }

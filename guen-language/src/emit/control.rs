@@ -179,7 +179,7 @@ fn reactions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                 "The reactions of the vector constraints `{name}`, as forces or torques in the world's axes."
             ),
         };
-        let (kind, value) = (tree.of_type(&quote!([R; 3])), tree.literal(&values));
+        let (kind, value) = (tree.of_type(&quote!([R; 3])), tree.literal(&|place| values[place].clone()));
         quote! {
             #[doc = #docs]
             pub fn #name(&self) -> #kind {

@@ -7,8 +7,8 @@ use quote::{format_ident, quote};
 use super::fields::Fields;
 use super::supplied::Supplied;
 use crate::derive::{Level, StateIndex, StatePart, Subject};
-use crate::model::{ConstantEntry, FormEntry, Model};
-use crate::names::{RATE_SUFFIX, array_of};
+use crate::model::{FormEntry, Model};
+use crate::names::RATE_SUFFIX;
 use crate::syntax::{Declaration, Name};
 
 /// The path of the facade in the user's crate.
@@ -123,25 +123,11 @@ pub(super) fn given_alone(layout: &Layout) -> TokenStream {
     if layout.inputs == 0 { quote!() } else { quote!(inputs) }
 }
 
-/// Whether a constant of the system follows others until it is set: its field is a `Derived<R>`, and no plain number. The entries
-/// of an array have one type, so that one which follows others makes all of them such.
-pub(super) fn is_derived(model: &Model<'_>, constant: &ConstantEntry<'_>) -> bool {
-    let follows = |constant: &ConstantEntry<'_>| {
-        constant.default.is_some_and(|e| !model.bench.graph.symbols_in(&[e]).is_empty())
-    };
-    let array = array_of(&constant.name.text);
-    match constant.name.path() {
-        None => follows(constant),
-        Some(_) => model.constants.iter().any(|other| array_of(&other.name.text) == array && follows(other)),
-    }
-}
-
 /// The constants of a level that follow others, by place, each behind those that its formula reads. In a scene one that
 /// another is fixed by is not among them if it would follow itself.
 pub(super) fn derived(model: &Model<'_>, level: &Level) -> Vec<usize> {
     let given = &level.selection.constants;
-    let mut left: Vec<usize> =
-        (0..given.len()).filter(|i| is_derived(model, &model.constants[given[*i]])).collect();
+    let mut left: Vec<usize> = (0..given.len()).filter(|i| model.constants[given[*i]].is_derived).collect();
     let mut found = Vec::new();
     loop {
         let reads = |i: &usize| {

@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 use super::constants::marker_of;
 use super::fields::Fields;
 use super::formula::default_text;
-use super::layout::{Layout, is_derived, variable_name};
+use super::layout::{Layout, variable_name};
 use super::text::tokens;
 use crate::derive::{StateIndex, Subject};
 use crate::names::module_name;
@@ -128,7 +128,7 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         }
     });
     // Constants that follow others are numbers among the values alone.
-    let is_derived = |c: usize| is_derived(model, &model.constants[c]);
+    let is_derived = |c: usize| model.constants[c].is_derived;
     let whole_values =
         (0..model.constants.len()).any(is_derived).then(|| quote!(let values = system.__guen_values();));
     let of_whole = |c: usize| {

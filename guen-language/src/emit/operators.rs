@@ -24,7 +24,10 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             _ => format!("The operator `X_{j}` of the form `{}`, (1.4).", subject.model.forms[j - 1].name),
         };
         if supplied.is_empty() {
-            let _ = write!(text, "{docs:?} X{j} {j}");
+            let _ = match j {
+                0 => write!(text, " X0 {docs:?}"),
+                _ => write!(text, "{:?} X{j} {j}", subject.model.forms[j - 1].name),
+            };
             continue;
         }
         // A constant has no parameters, and a function finds out which.

@@ -4,7 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::documentation;
-use super::fields::{Fields, Tree};
+use super::fields::{Entry, Fields, Tree};
 use super::integrated::units;
 use super::layout::{Layout, carried_field, form_name, variable_name};
 use super::parts::{self, Modules};
@@ -206,9 +206,9 @@ fn structured(
         let (docs, kind) = (docs_of(tree, values, instances), tree.of_type(&quote!(R)));
         quote!(#docs pub #ident: #kind,)
     });
-    let (names, idents, accesses) = (structure.names(), structure.idents(), structure.accesses());
-    let of_array: Vec<TokenStream> = (0..count).map(|i| quote!(values[#i])).collect();
-    let literal = structure.literal(&of_array);
+    let (names, idents) = (structure.names_of_values(), structure.idents());
+    let array = structure.list(&|_| false, &|Entry { access, .. }| quote!(self.#access));
+    let literal = structure.literal_of(&|_| false, &|Entry { index, .. }| quote!(values[#index]), []);
     let default = quote!(::core::default::Default::default());
     let defaults = structure.trees().map(|(ident, tree)| {
         let value = tree.filled(&default);
@@ -216,8 +216,8 @@ fn structured(
     });
     quote! {
         __guen::structured! {
-            #[doc = #docs] #record #count { #(#fields)* } [#(#names)*] [#(#idents)*]
-            |self, values| [#(self.#accesses),*] { #literal } { #(#defaults)* }
+            #[doc = #docs] #record #count { #(#fields)* } [#names] [#(#idents)*]
+            |self, values| (#array) { #literal } { #(#defaults)* }
         }
     }
 }

@@ -20,6 +20,7 @@ pub(super) fn body(
         match operation {
             Operation::Symbol(symbol) => names[result.index()] = loads.symbol(*symbol),
             Operation::Prepared(k) => names[result.index()] = format!("k[{k}]"),
+            _ if is_zero(operation) => names[result.index()] = "R::zero()".to_owned(),
             _ => names[result.index()] = format!("v{}", result.index()),
         }
         if let Operation::SinCos { cosine, .. } = operation {
@@ -30,7 +31,10 @@ pub(super) fn body(
     for (index, length) in rolled.arrays.iter().enumerate() {
         let _ = write!(text, "let mut a{index} = [R::zero(); {length}];");
     }
-    let mut written = vec![false; outputs.len()];
+    // The results are zero before anything is written.
+    let zeros: Vec<Value> =
+        instructions.iter().filter(|line| is_zero(&line.operation)).map(|line| line.result).collect();
+    let mut written: Vec<bool> = outputs.iter().map(|output| zeros.contains(output)).collect();
     for step in &rolled.steps {
         match step {
             RolledStep::Once(Instruction { result, operation }) => {
@@ -46,9 +50,9 @@ pub(super) fn body(
                 let _ = write!(text, "let v{} = a{array}[{at}];", value.index());
             }
             RolledStep::Loop(turns) => {
-                for offset in turns.lines.iter().flat_map(|line| line.outputs).flatten() {
+                for run in turns.lines.iter().flat_map(|line| line.outputs).flatten() {
                     for turn in turns.from..turns.to {
-                        written[(turn + offset) as usize] = true;
+                        written[run.at(turn) as usize] = true;
                     }
                 }
                 turns_text(&mut text, turns, &names);
@@ -87,6 +91,10 @@ pub(super) fn body(
     text
 }
 
+fn is_zero(operation: &Operation) -> bool {
+    matches!(operation, Operation::Number(number) if number.is_zero())
+}
+
 /// Whether a name is that of an element so far behind another one.
 fn is_run(first: &str, name: &str, distance: usize) -> bool {
     let (Some((array, start)), Some((other, at))) = (indexed(first), indexed(name)) else { return false };
@@ -118,6 +126,8 @@ fn statement(
             let _ = write!(text, "let ({name}, {}) = R::sin_cos({});", second(), operands[0]);
             return;
         }
+        // Written out where it is used.
+        _ if is_zero(operation) => return,
         Operation::Number(value) => number(value),
         Operation::Pi => "R::pi()".to_owned(),
         Operation::Call(function, _) => call(*function, &operands[0]),
@@ -147,13 +157,9 @@ fn turns_text(text: &mut String, turns: &Loop, names: &[String]) {
             .iter()
             .map(|operand| match *operand {
                 Operand::Outside(value) => names[value.index()].clone(),
-                Operand::Given { array, first, stride } => match (stride, first) {
-                    (0, first) => format!("{array}[{first}]"),
-                    (1, 0) => format!("{array}[i]"),
-                    (1, first) => format!("{array}[i + {first}]"),
-                    (stride, first) if stride > 0 => format!("{array}[{stride} * i + {first}]"),
-                    (stride, first) => format!("{array}[{first} - {} * i]", -stride),
-                },
+                Operand::Given { array, first, stride } => {
+                    format!("{array}[{}]", place(first as i64, stride))
+                }
                 Operand::Line(line, false) => format!("e{line}"),
                 Operand::Line(line, true) => format!("f{line}"),
                 Operand::Element(array, offset) => format!("a{array}[{}]", element(offset)),
@@ -164,10 +170,21 @@ fn turns_text(text: &mut String, turns: &Loop, names: &[String]) {
             if let Some((array, offset)) = store {
                 let _ = write!(text, "a{array}[{}] = {letter}{index};", element(*offset));
             }
-            if let Some(offset) = output {
-                let _ = write!(text, "o[{}] = {letter}{index};", element(offset));
+            if let Some(run) = output {
+                let _ = write!(text, "o[{}] = {letter}{index};", place(run.at(turns.from), run.stride));
             }
         }
     }
     text.push_str(if turns.descends { "}" } else { "i += 1; }" });
+}
+
+/// The place of an element in the turn `i`, from that in the first turn and the distance of two turns.
+fn place(first: i64, stride: i64) -> String {
+    match (stride, first) {
+        (0, first) => first.to_string(),
+        (1, 0) => "i".to_owned(),
+        (1, first) => format!("i + {first}"),
+        (stride, first) if stride > 0 => format!("{stride} * i + {first}"),
+        (stride, first) => format!("{first} - {} * i", -stride),
+    }
 }

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::fields::{Fields, plain};
+use super::fields::{Entry, Fields, plain};
 use super::layout::{Layout, variable_name};
 use crate::derive::Subject;
 use crate::syntax::Name;
@@ -57,13 +57,12 @@ fn structured(
     let count = structure.len();
     let names = structure.idents().map(plain);
     let (shape, order) = (structure.shape(), structure.order());
-    let given = order.iter().map(|place| {
-        let access = structure.access(*place);
-        match is_derived[*place] {
+    let is_apart = |place: usize| is_derived[place];
+    let given =
+        structure.list_of_fields(&is_apart, &|Entry { place, access, .. }| match is_derived[*place] {
             true => quote!(__guen::Derived::value(record.#access)),
             false => quote!(::core::option::Option::Some(record.#access)),
-        }
-    });
+        });
     let mut read = vec![TokenStream::new(); count];
     for (k, place) in order.iter().enumerate() {
         read[*place] = match is_derived[*place] {
@@ -73,12 +72,31 @@ fn structured(
             false => quote!(values[#k]?),
         };
     }
-    let literal = structure.literal(&read);
-    let is_derived = order.iter().map(|place| is_derived[*place]);
+    let mut position = vec![0_usize; count];
+    order.iter().enumerate().for_each(|(k, place)| position[*place] = k);
+    let fields = structure.trees().map(|(ident, tree)| {
+        let value = match tree.long_run(&is_apart) {
+            Some(run) => {
+                let from = position[run.start];
+                let to = from + run.len();
+                quote!(__guen::entries(&values[#from..#to])?)
+            }
+            None => tree.literal(&|place| read[place].clone()),
+        };
+        quote!(#ident: #value,)
+    });
+    let literal: TokenStream = fields.collect();
+    let is_derived = match is_derived.contains(&true) {
+        true => {
+            let is_derived = order.iter().map(|place| is_derived[*place]);
+            quote!([#(#is_derived),*])
+        }
+        false => quote!([false; #count]),
+    };
     quote! {
         __guen::serde_structured!(
-            #record, #text, #count, [#(#names),*], #shape, [#(#is_derived),*],
-            |record| [#(#given),*],
+            #record, #text, #count, [#(#names),*], #shape, #is_derived,
+            |record| #given,
             |values| ::core::option::Option::Some(#record { #literal #marker })
         );
     }

@@ -214,6 +214,9 @@ pub struct ConstantEntry<'a> {
     pub limits: Option<[ExprId; 2]>,
     /// The default, of earlier constants.
     pub default: Option<ExprId>,
+    /// Whether the constant follows others until it is set: its field is a `Derived<R>`, and no plain number. The entries of an array have one
+    /// type, so that one which follows others makes all of them such.
+    pub is_derived: bool,
     /// The symbol.
     pub symbol: ExprId,
 }

@@ -8,8 +8,9 @@ use core::fmt;
 pub use crate::generated::condition::condition;
 use crate::{Ordered, Real, RunningError};
 pub use constants::{
-    Bound, check_constants, check_definite, check_finite, check_fixed, check_hoisted, check_inertia,
-    check_limits, check_mass, check_nonnegative, check_nonzero, check_pivot, check_positive, check_within,
+    Bound, check_constants, check_definite, check_entries, check_finite, check_fixed, check_hoisted,
+    check_inertia, check_limits, check_mass, check_nonnegative, check_nonzero, check_pivot, check_positive,
+    check_within,
 };
 pub use contacts::{conditions, free_motion, loads, padded};
 

@@ -164,8 +164,8 @@ macro_rules! record {
 #[macro_export]
 macro_rules! structured {
     (
-        $(#[$($docs:tt)*])* $Record:ident $n:literal { $($fields:tt)* } [$($name:literal)*] [$($shown:ident)*]
-        |$self:ident, $values:ident| [$($access:expr),*] { $($literal:tt)* } { $($default:tt)* }
+        $(#[$($docs:tt)*])* $Record:ident $n:literal { $($fields:tt)* } [$($names:tt)*] [$($shown:ident)*]
+        |$self:ident, $values:ident| ($array:expr) { $($literal:tt)* } { $($default:tt)* }
     ) => {
         $(#[$($docs)*])*
         #[::core::prelude::v1::derive(::core::clone::Clone, ::core::marker::Copy, ::core::cmp::PartialEq)]
@@ -175,13 +175,13 @@ macro_rules! structured {
 
         impl $Record<f64> {
             /// The names of the values, in order.
-            pub const NAMES: [&'static str; $n] = [$($name),*];
+            pub const NAMES: [&'static str; $n] = $crate::names!($n $($names)*);
         }
 
         impl<R: ::core::marker::Copy> $Record<R> {
             #[inline]
             fn __guen_array($self) -> [R; $n] {
-                [$($access),*]
+                $array
             }
         }
 
@@ -224,7 +224,7 @@ macro_rules! operators {
     (
         $([$($F:ident $N:literal)*])?
         $n:literal $last:literal
-        $($docs:literal $X:ident $j:literal)*;
+        $(X0 $docs:literal)? $($form:literal $X:ident $j:literal)*;
         $($r:literal $s:literal [$($known:tt)*])*
     ) => {
         #[doc = ::core::concat!(
@@ -264,8 +264,14 @@ macro_rules! operators {
 
         $(
             #[doc = $docs]
-            pub type $X = $crate::Displacement<Prepared, $j>;
+            pub type X0 = $crate::Displacement<Prepared, 0>;
             #[doc = $docs]
+            pub const X0: X0 = $crate::Displacement::NEW;
+        )?
+        $(
+            #[doc = ::core::concat!("The operator `X_", $j, "` of the form `", $form, "`, (1.4).")]
+            pub type $X = $crate::Displacement<Prepared, $j>;
+            #[doc = ::core::concat!("The operator `X_", $j, "` of the form `", $form, "`, (1.4).")]
             pub const $X: $X = $crate::Displacement::NEW;
         )*
     };

@@ -6,6 +6,7 @@ mod condition;
 pub(crate) mod cost;
 pub(crate) mod derived;
 mod emitted;
+pub(crate) mod entries;
 pub(crate) mod instances;
 mod nalgebra_support;
 pub(crate) mod serde_support;

@@ -1,6 +1,6 @@
 //! The derivation as a whole: from a declared system to everything that is emitted.
 
-use super::fault::{DerivationError, affordable};
+use super::fault::{DerivationError, affordable, few_or_uncoupled};
 use super::forces::generalised_forces;
 use super::formulations::{self, Formulated, Found};
 use super::indispensable;
@@ -77,6 +77,7 @@ impl Derivation {
     /// Derives everything.
     pub fn new(bench: &mut Workbench, system: Mechanics) -> Result<Self, DerivationError> {
         let (n, l) = (system.forms.len(), system.forms.degrees);
+        few_or_uncoupled(&system)?;
         let equations_of_position: Vec<ExprId> = system.holonomic.iter().map(|h| h.equation).collect();
         bench.zero.set_manifold(&mut bench.graph, &equations_of_position);
         bench.choose_base_angles(&[], &system.expressions());

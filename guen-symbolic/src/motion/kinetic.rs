@@ -1,5 +1,7 @@
 //! `T°` as a sum of weighted products of velocity forms, `sum w u v`, without expanding it.
 
+use std::collections::BTreeMap;
+
 use super::velocity_forms::{VELOCITIES, VelocityPartials};
 use crate::algebra::{ExprId, Node, Rational};
 use crate::workbench::Workbench;
@@ -67,11 +69,17 @@ pub fn decompose(
     }
     // Equal products of forms are one term.
     let mut merged: Vec<KineticTerm> = Vec::new();
+    let mut places: BTreeMap<Vec<ExprId>, usize> = BTreeMap::new();
     for term in found {
-        if let Some(known) = merged.iter_mut().find(|known| known.forms == term.forms) {
-            known.weight = bench.graph.add(known.weight, term.weight);
-        } else {
-            merged.push(term);
+        match places.get(&term.forms) {
+            Some(place) => {
+                let known = &mut merged[*place];
+                known.weight = bench.graph.add(known.weight, term.weight);
+            }
+            None => {
+                places.insert(term.forms.clone(), merged.len());
+                merged.push(term);
+            }
         }
     }
     merged.retain(|term| !bench.graph.is_zero(term.weight));

@@ -53,5 +53,5 @@ pub use kinetic::{KineticTerm, NotQuadratic, decompose};
 pub use multibody::elimination_text;
 pub use poincare::equations as equations_by_definition;
 pub use solve::Solution;
-pub use thresholds::WRITTEN_OUT_PARAMETERS;
+pub use thresholds::{COUPLED_COORDINATES, WRITTEN_OUT_PARAMETERS};
 pub use velocity_forms::{VelocityForm, VelocityPartials};

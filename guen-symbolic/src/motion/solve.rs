@@ -189,6 +189,16 @@ pub(super) enum Naming {
     Definite,
 }
 
+/// A step of an elimination.
+struct Step {
+    /// The row that leaves.
+    row: usize,
+    /// The entry of the row on the diagonal.
+    pivot: ExprId,
+    /// The rows that it meets, with their multipliers `L_rk`.
+    multipliers: Vec<(usize, ExprId)>,
+}
+
 /// The rows of a matrix without what is zero.
 fn sparse_rows(bench: &Workbench, m: &[Vec<ExprId>]) -> Vec<Vector> {
     m.iter().map(|row| Vector::of_list(&bench.graph, row)).collect()
@@ -211,8 +221,7 @@ pub(super) fn eliminate(
         *e = keep(bench, *e);
     }
     let mut left: Vec<usize> = (0..n).collect();
-    // Each elimination step with its pivot and its multipliers L_rk.
-    let mut steps: Vec<(usize, ExprId, Vec<(usize, ExprId)>)> = Vec::new();
+    let mut steps: Vec<Step> = Vec::new();
     while !left.is_empty() {
         let k = choose(bench, &m, &left)?;
         left.retain(|r| *r != k);
@@ -244,13 +253,13 @@ pub(super) fn eliminate(
             f[*r] = keep(bench, rest);
         }
         let multipliers = multipliers.into_iter().map(|(r, factor, _)| (r, factor)).collect();
-        steps.push((k, pivot, multipliers));
+        steps.push(Step { row: k, pivot, multipliers });
     }
-    let pivots = steps.iter().map(|(_, pivot, _)| *pivot).collect();
+    let pivots = steps.iter().map(|step| step.pivot).collect();
     // L^T x = D^-1 f', backwards.
     let mut values = vec![bench.graph.zero(); n];
     let mut last = true;
-    for (k, pivot, multipliers) in steps.into_iter().rev() {
+    for Step { row: k, pivot, multipliers } in steps.into_iter().rev() {
         let mut terms = vec![bench.graph.div(f[k], pivot)];
         for (r, factor) in multipliers {
             let product = bench.graph.mul(factor, values[r]);

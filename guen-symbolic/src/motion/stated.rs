@@ -16,7 +16,7 @@ use super::{
 use crate::algebra::ExprId;
 use crate::geometry::MANY_COORDINATES;
 use crate::motion::thresholds::{
-    ALL_WAYS, MASS_PRODUCTS, MULTIPLIED_PARAMETERS, MULTIPLIED_VELOCITIES, OTHER_WAYS,
+    ALL_WAYS, COUPLED_COORDINATES, MASS_PRODUCTS, MULTIPLIED_PARAMETERS, MULTIPLIED_VELOCITIES, OTHER_WAYS,
 };
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
@@ -83,6 +83,9 @@ impl Stated {
                     constrained: Equations { mass: Vec::new(), forces: Vec::new() },
                     alone: Some(alone),
                 });
+            }
+            if system.forms.len() > COUPLED_COORDINATES {
+                return Err(DerivationError::TooManyCoordinates);
             }
         }
         let velocities = weighted_cost(&bench.graph, &frame.velocities);

@@ -9,6 +9,10 @@ pub(in crate::motion) const MULTIPLIED_PARAMETERS: usize = 6;
 /// has an entry for each pair.
 pub const WRITTEN_OUT_PARAMETERS: usize = 64;
 
+/// The number of coordinates above which systems are derived that are chains, trees or nets of particles, and no others: work and memory of
+/// everything else grow with the square of their number at least.
+pub const COUPLED_COORDINATES: usize = 200;
+
 /// The number of parameters that no energy couples above which equations are not written out: their matrix has a diagonal.
 pub(in crate::motion) const DIAGONAL_PARAMETERS: usize = 200;
 

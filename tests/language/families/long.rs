@@ -2,8 +2,8 @@
 
 use std::thread;
 
-use guen::mechanical_system;
 use guen::prelude::*;
+use guen::{Bodies, mechanical_system};
 
 mechanical_system! {
     /// A chain of a hundred links, each with a mass and a length of its own.
@@ -134,5 +134,34 @@ fn a_large_sparse_linearisation_has_its_entries_in_their_places() {
             };
             assert!((entry - expected).abs() < 1e-14, "{i} {j}: {entry} {expected}");
         }
+    }
+}
+
+#[test]
+fn long_arrays_go_through_files() {
+    let m = std::array::from_fn(|i| 1.0 + 0.1 * i as f64);
+    let row = Row { m, k: 3.0 };
+    let text = serde_json::to_string(&row).unwrap();
+    assert!(text.starts_with(r#"{"m":[1.0,1.1,"#) && text.ends_with(r#""k":3.0}"#), "{text}");
+    assert_eq!(serde_json::from_str::<Row>(&text).unwrap(), row);
+    let state = start();
+    let text = serde_json::to_string(&state).unwrap();
+    assert_eq!(serde_json::from_str::<chain::State>(&text).unwrap(), state);
+    let short = r#"{"m":[1.0],"k":3.0}"#;
+    assert!(serde_json::from_str::<Row>(short).is_err());
+}
+
+#[test]
+fn every_particle_of_a_long_chain_is_a_body() {
+    let (system, state) = (constants(0.0), start());
+    let prepared = system.prepare().unwrap();
+    let bodies = prepared.bodies(0.0, &state.into());
+    let mut place = [0.0, 0.0];
+    for (i, body) in bodies.iter().enumerate() {
+        place = [place[0] + system.l[i] * state.q[i].sin(), place[1] - system.l[i] * state.q[i].cos()];
+        assert_eq!((body.name, body.mass), (format!("particle {}", i + 1).as_str(), Some(system.m[i])));
+        let center = body.center.unwrap();
+        assert!((center[0] - place[0]).abs() < 1e-12 && (center[1] - place[1]).abs() < 1e-12, "{i}");
+        assert_eq!(center[2], 0.0);
     }
 }

@@ -3,4 +3,5 @@
 mod chains;
 mod entries;
 mod long;
+mod thousand;
 mod vectors;

@@ -1,14 +1,15 @@
 //! Constants, and the limits of constants and inputs.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use guen_symbolic::{Bound, ExprId, Graph, Role};
+use guen_symbolic::{Bound, ExprId, Graph, Role, Roles};
 
 use super::Resolver;
 use crate::diagnostics::Fault;
 use crate::model::ConstantEntry;
 use crate::model::place::Place;
 use crate::model::scope::Category;
+use crate::names::array_of;
 use crate::syntax::{BoundKind, Constant, Expression, Plain};
 
 impl<'a> Resolver<'a, '_> {
@@ -53,8 +54,26 @@ impl<'a> Resolver<'a, '_> {
             bound,
             limits,
             default,
+            is_derived: false,
             symbol,
         });
+    }
+
+    /// Notes which constants follow others.
+    pub(super) fn note_derived(&mut self) {
+        let graph = &self.eval.bench.graph;
+        let follows = |constant: &ConstantEntry<'_>| {
+            constant.default.is_some_and(|e| graph.roles(e).meets(Roles::of(Role::Constant)))
+        };
+        let following: BTreeSet<&str> = self
+            .constants
+            .iter()
+            .filter(|constant| follows(constant))
+            .map(|constant| array_of(&constant.name.text))
+            .collect();
+        for constant in &mut self.constants {
+            constant.is_derived = following.contains(array_of(&constant.name.text));
+        }
     }
 
     /// The entries of an array are given together: all of them have a default, or none.
@@ -62,7 +81,7 @@ impl<'a> Resolver<'a, '_> {
         let mut first: BTreeMap<&str, &Constant> = BTreeMap::new();
         for constant in constants.iter().filter(|constant| constant.name.path().is_some()) {
             let name = &constant.name;
-            let other = *first.entry(crate::names::array_of(&name.text)).or_insert(constant);
+            let other = *first.entry(array_of(&name.text)).or_insert(constant);
             if other.default.is_some() == constant.default.is_some() {
                 continue;
             }

@@ -13,6 +13,7 @@ impl<'a> Resolver<'a, '_> {
     }
 
     fn put_together(mut self, is_core_sound: &mut bool) -> Option<Model<'a>> {
+        self.note_derived();
         let failed = !*is_core_sound;
         let has_contacts = self.has_contacts();
         let modes = if self.declaration.in_mode.is_some() { None } else { self.modes() };

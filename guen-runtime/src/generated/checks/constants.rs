@@ -1,7 +1,7 @@
 //! Checks of constants and of what is prepared from them: each names the guilty constant in its error.
 
 use crate::system::constants_error::BodyFault;
-use crate::{ConstantsError, Real};
+use crate::{ConstantsError, EntryNames, Real};
 
 /// Refuses a constant that is not finite.
 ///
@@ -133,16 +133,42 @@ pub fn check_constants<R: Real, const N: usize>(
     values: &[R; N],
     bounds: &[(&'static str, Bound); N],
 ) -> Result<(), ConstantsError> {
-    for (value, (name, bound)) in values.iter().zip(bounds) {
-        check_finite(*value, name)?;
-        match bound {
-            Bound::None => {}
-            Bound::Positive(words) => check_positive(*value, name, words)?,
-            Bound::Nonnegative(words) => check_nonnegative(*value, name, words)?,
-            Bound::Nonzero(words) => check_nonzero(*value, name, words)?,
-        }
+    let mut checked = values.iter().zip(bounds);
+    checked.try_for_each(|(value, (name, bound))| check_constant(*value, name, *bound))
+}
+
+fn check_constant<R: Real>(value: R, name: &'static str, bound: Bound) -> Result<(), ConstantsError> {
+    check_finite(value, name)?;
+    match bound {
+        Bound::None => Ok(()),
+        Bound::Positive(words) => check_positive(value, name, words),
+        Bound::Nonnegative(words) => check_nonnegative(value, name, words),
+        Bound::Nonzero(words) => check_nonzero(value, name, words),
     }
-    Ok(())
+}
+
+/// Refuses entries of an array that are not finite or outside of their bound.
+///
+/// ```
+/// use guen_runtime::checks::{Bound, check_entries};
+/// use guen_runtime::EntryNames;
+/// const NAMES: &EntryNames<2, 4> = &EntryNames::new("m[", 0, "]");
+/// const WORDS: &EntryNames<2, 8> = &EntryNames::new("m[", 0, "] > 0");
+/// assert!(check_entries(&[1.0, 2.0], NAMES, WORDS, Bound::Positive).is_ok());
+/// assert!(check_entries(&[1.0, 0.0], NAMES, WORDS, Bound::Positive).is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::NotFinite`] or [`ConstantsError::OutOfBound`] of the first of them.
+pub fn check_entries<R: Real, const N: usize, const L: usize, const W: usize>(
+    values: &[R],
+    names: &'static EntryNames<N, L>,
+    words: &'static EntryNames<N, W>,
+    bound: impl Fn(&'static str) -> Bound,
+) -> Result<(), ConstantsError> {
+    let mut checked = values.iter().enumerate();
+    checked.try_for_each(|(k, value)| check_constant(*value, names.get(k), bound(words.get(k))))
 }
 
 /// Refuses a pivot of constants that is zero or not finite.

@@ -46,7 +46,7 @@ impl Differences {
         differences.joined(bench)
     }
 
-    /// The same with forms that were relative to rest taken relative to each other; `None` where nothing is gained.
+    /// Takes forms that were relative to rest relative to each other; `None` where nothing is gained.
     pub(in crate::motion) fn joined(self, bench: &mut Workbench) -> Option<Self> {
         let mut forms = self.moving(bench);
         let roots: Vec<usize> = (0..forms.rows.len()).filter(|k| forms.edges[*k].is_none()).collect();

@@ -82,8 +82,25 @@ pub struct Line {
     pub operands: Vec<Operand>,
     /// The arrays whose elements `turn + offset` take the result, and the second result.
     pub stores: [Option<(usize, i64)>; 2],
-    /// The elements `turn + offset` of the results of the function that are these.
-    pub outputs: [Option<i64>; 2],
+    /// The elements of the results of the function that are these.
+    pub outputs: [Option<Places>; 2],
+}
+
+/// Elements of an array at equal distances, one for each turn.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Places {
+    /// The element in the turn 0, which need not be one of the loop.
+    pub origin: i64,
+    /// The distance to the element of the next turn.
+    pub stride: i64,
+}
+
+impl Places {
+    /// The element of a turn.
+    #[must_use]
+    pub fn at(self, turn: i64) -> i64 {
+        self.origin + self.stride * turn
+    }
 }
 
 /// An operand of a line.
@@ -112,6 +129,9 @@ pub(super) const FEWEST_TURNS: i64 = 12;
 /// The most steps and lines of code with loops: each `let` opens a scope in the one before.
 const MOST_STEPS: usize = 3_000;
 
+/// The most operations in all loops of a function.
+const MOST_CLASSES: usize = 100;
+
 /// The code with loops; `None` where it would hardly be shorter. `prepared` has the shapes of prepared values.
 pub(super) fn roll(
     code: (&[Instruction], &[Value], usize),
@@ -133,6 +153,10 @@ pub(super) fn roll(
     let mut best: Option<(usize, Rolled)> = None;
     for depth in DEPTHS {
         let found = classes::find(code, (&indices, arrays), prepared, depth);
+        // What each pair of members has of its own takes no turns: it takes minutes to find that out.
+        if found.classes.iter().filter(|class| !class.places.is_empty()).count() > MOST_CLASSES {
+            continue;
+        }
         let Some(rolled) = schedule::scheduled(code, found) else { continue };
         let size = rolled.size();
         if size <= least

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::classes::{Class, Found, Role};
-use super::{FEWEST_TURNS, Line, Loop, Operand, Rolled, RolledStep};
+use super::{FEWEST_TURNS, Line, Loop, Operand, Places, Rolled, RolledStep};
 use crate::program::instruction::{Instruction, Operation, Value};
 
 /// Classes that go through the members in one loop.
@@ -177,17 +177,17 @@ fn is_near(code: (&[Instruction], &[usize]), found: &Found, groups: &[Group], a:
     !users.has_way_around(a, b) && !users.has_way_around(b, a)
 }
 
-/// The distances from the turns of classes to the results of the function that are their values, of those of which all are.
-fn output_offsets(
+/// The results of the function that are the values of classes, of those of which all are.
+fn results(
     instructions: &[Instruction],
     (outputs, values): (&[Value], usize),
     found: &Found,
-) -> BTreeMap<(usize, bool), i64> {
+) -> BTreeMap<(usize, bool), Places> {
     let mut places: Vec<Vec<i64>> = vec![Vec::new(); values];
     for (place, output) in (0..).zip(outputs) {
         places[output.index()].push(place);
     }
-    let mut offsets = BTreeMap::new();
+    let mut found_places = BTreeMap::new();
     for (index, class) in found.classes.iter().enumerate() {
         for second in [false, true] {
             let value = |place: &usize| {
@@ -197,17 +197,20 @@ fn output_offsets(
                     _ => *result,
                 }
             };
-            let Some(first) = class.places.first() else { continue };
-            let offset = places[value(first).index()].iter().map(|place| place - class.from).find(|offset| {
+            let [first, next, ..] = &class.places[..] else { continue };
+            let [first, next] = [first, next].map(|place| &places[value(place).index()]);
+            let runs = first.iter().flat_map(|from| next.iter().map(move |to| (*from, to - from)));
+            let mut runs = runs.map(|(from, stride)| Places { origin: from - stride * class.from, stride });
+            let run = runs.find(|run| {
                 let mut turns = (class.from..).zip(&class.places);
-                turns.all(|(turn, place)| outputs.get((turn + offset) as usize) == Some(&value(place)))
+                turns.all(|(turn, place)| outputs.get(run.at(turn) as usize) == Some(&value(place)))
             });
-            if let Some(offset) = offset {
-                offsets.insert((index, second), offset);
+            if let Some(run) = run {
+                found_places.insert((index, second), run);
             }
         }
     }
-    offsets
+    found_places
 }
 
 /// The instruction that makes each value.
@@ -301,8 +304,8 @@ impl<'a> Below<'a> {
 struct Writer<'a> {
     below: Below<'a>,
     outputs: &'a [Value],
-    /// The distances from the turns of classes to the results of the function that are their values, if all of them are.
-    output_offsets: BTreeMap<(usize, bool), i64>,
+    /// The results of the function that are the values of classes, of those of which all are.
+    results: BTreeMap<(usize, bool), Places>,
     /// The arrays of classes and their least turn.
     arrays: BTreeMap<(usize, bool), (usize, i64)>,
     rolled: Rolled,
@@ -319,7 +322,7 @@ impl<'a> Writer<'a> {
     ) -> Self {
         let below = Below::new(instructions, maker, found, groups);
         Writer {
-            output_offsets: output_offsets(instructions, (outputs, values), found),
+            results: results(instructions, (outputs, values), found),
             below,
             outputs,
             arrays: BTreeMap::new(),
@@ -390,10 +393,7 @@ impl<'a> Writer<'a> {
         for output in self.outputs {
             if let Some((class, turn, second)) = found.made[output.index()] {
                 // Written by the loop itself where results and turns go together.
-                if self
-                    .output_offset(class, second)
-                    .is_none_or(|offset| self.outputs.get((turn + offset) as usize) != Some(output))
-                {
+                if !self.is_stored(*output) {
                     need(class, second, turn);
                 }
             }
@@ -404,16 +404,11 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// The distance from the turns of a class to the results of the function that are its values, if all of them are.
-    fn output_offset(&self, class: usize, second: bool) -> Option<i64> {
-        self.output_offsets.get(&(class, second)).copied()
-    }
-
     /// Whether a loop writes a value to every result that it is.
     fn is_stored(&self, value: Value) -> bool {
         let Some((class, turn, second)) = self.below.found.made[value.index()] else { return false };
-        let offset = self.output_offset(class, second);
-        offset.is_some_and(|offset| self.outputs.get((turn + offset) as usize) == Some(&value))
+        let run = self.results.get(&(class, second));
+        run.is_some_and(|run| self.outputs.get(run.at(turn) as usize) == Some(&value))
     }
 
     /// The steps in an order in which each comes behind what it needs: those that are not in loops as early as they may.
@@ -540,13 +535,14 @@ impl<'a> Writer<'a> {
             });
             let of = |second: bool| {
                 let slot = self.arrays.get(&(*class, second));
-                (slot.map(|(array, least)| (*array, -shift - least)), self.output_offset(*class, second))
+                (slot.map(|(array, least)| (*array, -shift - least)), self.results.get(&(*class, second)))
             };
             let [(a, out_a), (b, out_b)] = match first {
                 Operation::SinCos { .. } => [of(false), of(true)],
                 _ => [of(false), (None, None)],
             };
-            let outputs = [out_a, out_b].map(|offset| offset.map(|offset| offset - shift));
+            let shifted = |run: &Places| Places { origin: run.at(-shift), ..*run };
+            let outputs = [out_a, out_b].map(|run| run.map(shifted));
             let operands = operands.collect();
             lines.push(Line { operation: first, operands, stores: [a, b], outputs });
         }

@@ -140,8 +140,8 @@ impl Simulation<'_> {
                                 if let Some((array, offset)) = store {
                                     self.store(array, turn + offset, value?)?;
                                 }
-                                if let Some(offset) = output {
-                                    *results.get_mut(usize::try_from(turn + offset).ok()?)? = Some(value?);
+                                if let Some(run) = output {
+                                    *results.get_mut(usize::try_from(run.at(turn)).ok()?)? = Some(value?);
                                 }
                             }
                             made.push(both);

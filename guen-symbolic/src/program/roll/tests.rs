@@ -153,8 +153,8 @@ fn looped(
                             if let Some((array, offset)) = store {
                                 arrays[array][(turn + offset) as usize] = value;
                             }
-                            if let Some(offset) = output {
-                                results[(turn + offset) as usize] = Some(value);
+                            if let Some(run) = output {
+                                results[run.at(turn) as usize] = Some(value);
                             }
                         }
                         made.push(both);
