@@ -491,8 +491,11 @@ fn assert_faults_contain(found: &[String], words: &str) {
 #[test]
 fn too_many_entries_are_an_error() {
     let names = |count: usize| (0..count).map(|i| format!("x{i}")).collect::<Vec<_>>().join(", ");
-    assert!(section_faults(&format!("coordinates {{ {} }}", names(200))).is_empty());
-    assert_faults(&section_faults(&format!("coordinates {{ {} }}", names(300))), &["x200 | more than 200"]);
+    assert!(section_faults(&format!("coordinates {{ {} }}", names(1000))).is_empty());
+    assert_faults(
+        &section_faults(&format!("coordinates {{ {} }}", names(1100))),
+        &["x1000 | more than 1000"],
+    );
 }
 
 /// A fixed sequence of numbers that looks random (a linear congruential generator, upper bits).
