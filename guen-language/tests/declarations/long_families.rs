@@ -136,6 +136,14 @@ fn particles_are_taken_relative_to_what_they_are_written_with() {
     let cases = [
         // A support that time drives, with a mass of its own, and one that rests.
         (format!("let base = vec(sin(3*t), t^2); let p[0] = base + l*vec(sin(q[0]), -cos(q[0])); {links}"), format!("M at base; {all}")),
+        // The same with a velocity of so many terms that it stays a sum of its own.
+        (
+            format!(
+                "let base = vec(sum(k in 1..12: sin(k*t)/k), t^2);
+                 let p[0] = base + l*vec(sin(q[0]), -cos(q[0])); {links}"
+            ),
+            format!("M at base; {all}"),
+        ),
         (format!("let base = vec(1, 2); let p[0] = base + l*vec(sin(q[0]), -cos(q[0])); {links}"), format!("M at base; {all}")),
         // Two masses at every joint, one of them beside it.
         (
