@@ -3,6 +3,8 @@
 use std::thread;
 
 use guen::prelude::*;
+
+use super::{angles_and_rates, lengths, masses};
 use guen::{Bodies, mechanical_system};
 
 mechanical_system! {
@@ -36,14 +38,11 @@ mechanical_system! {
 const N: usize = 100;
 
 fn constants(c: f64) -> Chain {
-    let m = std::array::from_fn(|i| 0.1 + 0.01 * ((7 * i) % 13) as f64);
-    let l = std::array::from_fn(|i| 0.05 + 0.005 * ((5 * i) % 11) as f64);
-    Chain { m, l, c, g: 9.81 }
+    Chain { m: masses(), l: lengths(0.05), c, g: 9.81 }
 }
 
 fn start() -> chain::State {
-    let q = std::array::from_fn(|i| 0.4 + 0.8 * f64::sin(1.7 * i as f64));
-    let w = std::array::from_fn(|i| f64::cos(2.3 * i as f64));
+    let [q, w] = angles_and_rates();
     chain::State { q, w }
 }
 

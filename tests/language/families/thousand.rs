@@ -5,6 +5,8 @@ use std::thread;
 use guen::mechanical_system;
 use guen::prelude::*;
 
+use super::{angles_and_rates, lengths, masses};
+
 mechanical_system! {
     /// A chain of a thousand links, each with a mass and a length of its own.
     pub system Thousand {
@@ -30,14 +32,11 @@ fn in_a_thread(run: fn()) {
 }
 
 fn constants(c: f64) -> Thousand {
-    let m = std::array::from_fn(|i| 0.1 + 0.01 * ((7 * i) % 13) as f64);
-    let l = std::array::from_fn(|i| 0.005 + 0.0005 * ((5 * i) % 11) as f64);
-    Thousand { m, l, c, g: 9.81 }
+    Thousand { m: masses(), l: lengths(0.005), c, g: 9.81 }
 }
 
 fn start() -> thousand::State {
-    let q = std::array::from_fn(|i| 0.4 + 0.8 * f64::sin(1.7 * i as f64));
-    let w = std::array::from_fn(|i| f64::cos(2.3 * i as f64));
+    let [q, w] = angles_and_rates();
     thousand::State { q, w }
 }
 
