@@ -136,7 +136,7 @@ fn particles_are_taken_relative_to_what_they_are_written_with() {
     let cases = [
         // A support that time drives, with a mass of its own, and one that rests.
         (format!("let base = vec(sin(3*t), t^2); let p[0] = base + l*vec(sin(q[0]), -cos(q[0])); {links}"), format!("M at base; {all}")),
-        // The same with a velocity of so many terms that it stays a sum of its own.
+        // A support whose velocity has more than eight terms: the velocities of the links are written with that sum.
         (
             format!(
                 "let base = vec(sum(k in 1..12: sin(k*t)/k), t^2);

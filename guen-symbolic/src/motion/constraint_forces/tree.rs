@@ -48,7 +48,7 @@ impl Differences {
 
     /// Takes forms that were relative to rest relative to each other; `None` where nothing is gained.
     pub(in crate::motion) fn joined(self, bench: &mut Workbench) -> Option<Self> {
-        let mut forms = self.moving(bench);
+        let mut forms = self.moving()?;
         let roots: Vec<usize> = (0..forms.rows.len()).filter(|k| forms.edges[*k].is_none()).collect();
         let components: Vec<Vector> = roots.iter().map(|k| forms.rows[*k].clone()).collect();
         let drifts: Vec<ExprId> = roots.iter().map(|k| forms.drifts[*k]).collect();
@@ -64,8 +64,8 @@ impl Differences {
         (components <= densest(forms.rest.len(), forms.rows.len())).then_some(forms)
     }
 
-    /// The forms that parameters move. Relative to one that does not move, a form is so fast as it is relative to rest.
-    fn moving(mut self, bench: &mut Workbench) -> Self {
+    /// The forms that parameters move; `None` where one is relative to a form that they do not move, whose speed it would lack.
+    fn moving(self) -> Option<Self> {
         let moves = |mut k: usize| loop {
             match &self.edges[k] {
                 _ if self.rows[k].len() > 0 => return true,
@@ -75,18 +75,8 @@ impl Differences {
         };
         let moves: Vec<bool> = (0..self.rows.len()).map(moves).collect();
         let kept: Vec<usize> = (0..self.rows.len()).filter(|k| moves[*k]).collect();
-        let mut drifts = self.drifts.clone();
-        for k in &kept {
-            let Some(edge) = self.edges[*k].take_if(|edge| !moves[edge.parent]) else { continue };
-            let (mut driver, mut multiple) = (Some(edge.parent), edge.multiple);
-            while let Some(parent) = driver {
-                let driven = bench.graph.scale(self.drifts[parent], &multiple);
-                drifts[*k] = bench.graph.add(drifts[*k], driven);
-                driver = self.edges[parent].as_ref().map(|above| {
-                    multiple = &multiple * &above.multiple;
-                    above.parent
-                });
-            }
+        if kept.iter().any(|k| self.edges[*k].as_ref().is_some_and(|edge| !moves[edge.parent])) {
+            return None;
         }
         let mut place = vec![0; self.rows.len()];
         kept.iter().enumerate().for_each(|(new, k)| place[*k] = new);
@@ -94,13 +84,13 @@ impl Differences {
             let Edge { parent, multiple } = self.edges[*k].clone()?;
             Some(Edge { parent: place[parent], multiple })
         };
-        Differences {
+        Some(Differences {
             masses: kept.iter().map(|k| self.masses[*k]).collect(),
             edges: kept.iter().map(edge).collect(),
             rows: kept.iter().map(|k| self.rows[*k].clone()).collect(),
-            drifts: kept.iter().map(|k| drifts[*k]).collect(),
+            drifts: kept.iter().map(|k| self.drifts[*k]).collect(),
             rest: self.rest,
-        }
+        })
     }
 }
 

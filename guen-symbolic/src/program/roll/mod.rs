@@ -153,7 +153,7 @@ pub(super) fn roll(
     let mut best: Option<(usize, Rolled)> = None;
     for depth in DEPTHS {
         let found = classes::find(code, (&indices, arrays), prepared, depth);
-        // What each pair of members has of its own takes no turns: it takes minutes to find that out.
+        // Operations for each pair of members fit into no loop, and to search for one takes minutes.
         if found.classes.iter().filter(|class| !class.places.is_empty()).count() > MOST_CLASSES {
             continue;
         }
