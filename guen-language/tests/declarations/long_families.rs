@@ -175,7 +175,7 @@ fn particles_are_taken_relative_to_what_they_are_written_with() {
     }
 }
 
-/// Bodies that attract each other in pairs: there are no loops in it, and that is found out soon.
+/// Bodies that attract each other in pairs, of which no loop is made: operations grow with the pairs.
 #[test]
 fn pairs_of_members_are_written_out() {
     let bodies = "pub system Bodies {
