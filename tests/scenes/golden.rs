@@ -106,11 +106,11 @@ Nodding             4     32          13      1             11";
     assert_eq!(hoop::levels().to_string(), expected);
     let expected = "\
 level   variables  bytes  operations  calls  prepared once
-Convoy         13    104         115      4            147
-Course          8     64         100      4             63
-Dash            6     48          87      4             64
+Convoy         13    104          95      4            147
+Course          8     64          81      4             63
+Dash            6     48          70      4             64
 Alone           8     64          55      4             31
-Hitch           6     48          87      4             64
+Hitch           6     48          70      4             64
 Aim             2     16           1      0              1";
     assert_eq!(convoy::levels().to_string(), expected);
     for (info, level) in hoop::LEVELS.iter().zip(["Hoop", "Tilt", "Unit", "Contact", "Told", "Numbers"]) {

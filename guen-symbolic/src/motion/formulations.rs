@@ -391,7 +391,7 @@ fn in_body_axes(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcom
     let Some(own) = own else {
         return Ok(Outcome::Declined("no chart has an edge, or no body turns"));
     };
-    let lists = own.rates(bench, search.system, search.generalised_forces);
+    let lists = own.rates(bench, search.system, search.generalised_forces, false);
     Ok(Outcome::found(lists, || Rank::Other))
 }
 

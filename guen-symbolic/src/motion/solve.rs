@@ -1,6 +1,7 @@
 //! `M eta' = f` by a straight-line `L D L^T` factorisation of each block of the mass matrix.
 
 use super::cancellation;
+use super::restriction::written_out;
 use super::sparse::Vector;
 use crate::algebra::ExprId;
 use crate::geometry::adjugate;
@@ -24,7 +25,7 @@ pub struct Solution {
 impl Solution {
     /// Solves the equations, or names a combination of parameters without inertia: rows that are dependent.
     pub fn new(bench: &mut Workbench, mass: &[Vec<ExprId>], forces: &[ExprId]) -> Result<Self, Vec<usize>> {
-        Self::of_blocks(bench, mass, forces, false)
+        Self::of_blocks(bench, mass, forces, Pairs::WrittenOut)
     }
 
     /// Solves with the first solutions kept whole in small blocks, too; `None` where there is nothing to share.
@@ -34,14 +35,32 @@ impl Solution {
         if !pairs.into_iter().any(is_coupled) {
             return None;
         }
-        Self::of_blocks(bench, mass, forces, true).ok()
+        Self::of_blocks(bench, mass, forces, Pairs::Shared).ok()
+    }
+
+    /// Solves pairs whose determinant is a constant by dividing by it alone, as those of a body of revolution that rolls on its rim, in its
+    /// axes; `None` where there are none.
+    pub(super) fn by_constant_determinants(
+        bench: &mut Workbench,
+        mass: &[Vec<ExprId>],
+        forces: &[ExprId],
+    ) -> Option<Self> {
+        let pairs = blocks(bench, mass).into_iter().filter(|block| block.len() == 2);
+        let pairs: Vec<Vec<usize>> = pairs.collect();
+        let matrix = |block: &[usize]| -> Vec<Vec<ExprId>> {
+            block.iter().map(|s| block.iter().map(|t| mass[*s][*t]).collect()).collect()
+        };
+        if !pairs.iter().any(|block| constant_determinant(bench, &matrix(block)).is_some()) {
+            return None;
+        }
+        Self::of_blocks(bench, mass, forces, Pairs::ByDeterminant).ok()
     }
 
     fn of_blocks(
         bench: &mut Workbench,
         mass: &[Vec<ExprId>],
         forces: &[ExprId],
-        share: bool,
+        pairs: Pairs,
     ) -> Result<Self, Vec<usize>> {
         let l = mass.len();
         if let Some(rank) = bench.zero.rank(&mut bench.graph, mass, true)
@@ -61,7 +80,7 @@ impl Solution {
                 block.iter().map(|s| block.iter().map(|t| mass[*s][*t]).collect()).collect();
             let right: Vec<ExprId> = block.iter().map(|s| forces[*s]).collect();
             let values =
-                solution.solve_block(bench, &block, matrix, right, share).ok_or_else(|| block.clone())?;
+                solution.solve_block(bench, &block, matrix, right, pairs).ok_or_else(|| block.clone())?;
             for (s, value) in block.into_iter().zip(values) {
                 solution.accelerations[s] = value;
             }
@@ -98,11 +117,18 @@ impl Solution {
         rows: &[usize],
         m: Vec<Vec<ExprId>>,
         f: Vec<ExprId>,
-        share: bool,
+        pairs: Pairs,
     ) -> Option<Vec<ExprId>> {
         let n = m.len();
+        if n == 2
+            && pairs == Pairs::ByDeterminant
+            && let Some(determinant) = constant_determinant(bench, &m)
+        {
+            self.require(bench, determinant);
+            return Some(by_determinant(bench, &m, &f, determinant));
+        }
         let naming = match n {
-            0..=BLOCK_WRITTEN_OUT if share => Naming::Values,
+            0..=BLOCK_WRITTEN_OUT if pairs == Pairs::Shared => Naming::Values,
             0..=BLOCK_WRITTEN_OUT => Naming::Nothing,
             _ => Naming::Everything,
         };
@@ -166,6 +192,44 @@ impl Solution {
             list.push(pivot);
         }
     }
+}
+
+/// The way in which coupled pairs of equations are solved.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Pairs {
+    /// Elimination without names.
+    WrittenOut,
+    /// Elimination with the first solution kept whole.
+    Shared,
+    /// The determinant where it is a constant.
+    ByDeterminant,
+}
+
+/// The determinant of a coupled pair, if it is a constant and some entry is not.
+fn constant_determinant(bench: &mut Workbench, m: &[Vec<ExprId>]) -> Option<ExprId> {
+    if m.iter().flatten().all(|e| bench.graph.roles(*e).is_constant()) {
+        return None;
+    }
+    let (first, second) = (bench.graph.mul(m[0][0], m[1][1]), bench.graph.mul(m[0][1], m[1][0]));
+    let determinant = bench.graph.sub(first, second);
+    let determinant = written_out(bench, determinant);
+    let determinant = bench.tidy(determinant);
+    (bench.graph.roles(determinant).is_constant() && !bench.graph.is_zero(determinant)).then_some(determinant)
+}
+
+/// The solution of a pair of equations by its determinant.
+fn by_determinant(
+    bench: &mut Workbench,
+    m: &[Vec<ExprId>],
+    f: &[ExprId],
+    determinant: ExprId,
+) -> Vec<ExprId> {
+    let values = [(0, 1), (1, 0)].map(|(own, other)| {
+        let (plus, minus) = (bench.graph.mul(m[other][other], f[own]), bench.graph.mul(m[0][1], f[other]));
+        let above = bench.graph.sub(plus, minus);
+        bench.graph.div(above, determinant)
+    });
+    values.to_vec()
 }
 
 /// The result of an elimination.

@@ -49,7 +49,7 @@ pub(super) fn rates(
     if divisors.into_iter().any(|divisor| is_among(bench, divisor, &own)) {
         return None;
     }
-    let lists = turned.rates(bench, system, forces);
+    let lists = turned.rates(bench, system, forces, true);
     let (system, operators) = (&restated.system, &restated.frame.operators);
     let back = |rates| change.turned_back(bench, declared, frame, (system, operators), rates);
     Some(lists.into_iter().map(back).collect())

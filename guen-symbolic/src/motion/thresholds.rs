@@ -26,6 +26,9 @@ pub(in crate::motion) const MULTIPLIED_VELOCITIES: u64 = 4000;
 /// the rates of the base angles, if there are any.
 pub(in crate::motion) const MASS_PRODUCTS: usize = 20_000;
 
+/// The number of parameters above which inertial forces as derivatives of the mass matrix take more operations than accelerations.
+pub(in crate::motion) const DIFFERENTIATED_PARAMETERS: usize = 4;
+
 /// The estimate of rates by bodies up to which all ways to the rates are looked at.
 pub(in crate::motion) const ALL_WAYS: u64 = 150;
 

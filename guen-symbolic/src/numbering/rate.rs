@@ -17,6 +17,23 @@ impl Numbering {
         }
     }
 
+    /// The rates of numbers along another motion, of which the rates of some numbers are known.
+    pub(crate) fn rates_along(
+        &mut self,
+        bench: &mut Workbench,
+        rates: &Rates,
+        known: &[(Num, Num)],
+        of: &[Num],
+    ) -> Vec<Num> {
+        let others = std::mem::take(&mut self.rates);
+        for (a, rate) in known {
+            self.set_rate(*a, *rate);
+        }
+        let found = of.iter().map(|a| self.rate(bench, rates, *a)).collect();
+        self.rates = others;
+        found
+    }
+
     /// The rate of a number.
     pub(crate) fn rate(&mut self, bench: &mut Workbench, rates: &Rates, a: Num) -> Num {
         if self.is_constant(a) {

@@ -12,7 +12,7 @@ use super::lower::{Code, PreparedTable, lower};
 use super::net::Net;
 use super::part::needed;
 use super::terms::NetId;
-use crate::algebra::{Bound, Function, Graph, Multivariate, Rational, Role, SymbolId, mix};
+use crate::algebra::{Bound, ExprId, Function, Graph, Multivariate, Rational, Role, SymbolId, mix};
 use crate::zero::evaluate;
 
 /// Random points.
@@ -124,14 +124,19 @@ impl Arithmetic for Running {
 
 /// A point: a number for every symbol.
 #[derive(Clone)]
-struct Point {
+pub(super) struct Point {
     seed: u64,
     /// A symbol that is moved from its draw.
     moved: Option<(SymbolId, f64)>,
 }
 
 impl Point {
-    fn value(&self, graph: &Graph, symbol: SymbolId) -> f64 {
+    /// The point of a number.
+    pub(super) fn drawn(seed: u64) -> Self {
+        Point { seed, moved: None }
+    }
+
+    pub(super) fn value(&self, graph: &Graph, symbol: SymbolId) -> f64 {
         if let Some((moved, value)) = self.moved
             && moved == symbol
         {
@@ -163,6 +168,27 @@ impl Candidate {
         let mut prepared = PreparedTable::default();
         let code = lower(graph, net, roots, &mut prepared);
         Candidate { code, prepared }
+    }
+
+    /// The code, and the constants that it loads.
+    pub(super) fn parts(&self) -> (&Code, &[ExprId]) {
+        (&self.code, &self.prepared.expressions)
+    }
+
+    /// Other code that loads the same constants.
+    pub(super) fn with(&self, code: Code) -> Self {
+        Candidate { code, prepared: self.prepared.clone() }
+    }
+
+    /// The code, with what it loads in a table that functions share.
+    pub(super) fn loading(self, shared: &mut PreparedTable) -> Code {
+        let Candidate { mut code, prepared } = self;
+        for instruction in &mut code.instructions {
+            if let Operation::Prepared(k) = &mut instruction.operation {
+                *k = shared.index(prepared.expressions[*k]);
+            }
+        }
+        code
     }
 
     /// The weighted operations of the program.
@@ -294,7 +320,7 @@ struct Losses {
 
 /// Returns the digits that each program loses.
 fn losses(graph: &Graph, codes: &[Candidate]) -> Vec<Losses> {
-    let mut points: Vec<Point> = (0..POINTS).map(|seed| Point { seed, moved: None }).collect();
+    let mut points: Vec<Point> = (0..POINTS).map(Point::drawn).collect();
     // Equal programs lose as much, and no constant moves: each is looked at once.
     let mut different: Vec<&Candidate> = Vec::new();
     let mut kinds = Vec::new();

@@ -1,7 +1,8 @@
 //! Running the stages: every function by itself, what they share in *prepare*.
 
 use crate::program::thresholds::{
-    COLD_NODES, FINALIST_COST, FINALISTS, HARDLY_MORE, NAMES_WITH_CANDIDATES, OPTIMISED_WITHOUT_NAMES,
+    COLD_NODES, FINALIST_COST, FINALISTS, HARDLY_MORE, MOST_JOINED, NAMES_WITH_CANDIDATES,
+    OPTIMISED_WITHOUT_NAMES,
 };
 use std::collections::BTreeMap;
 
@@ -13,6 +14,7 @@ use super::net::{Conversion, Field, Net, NetNode};
 use super::part::needed;
 use super::passes::{CANDIDATES, Changes, JOINED, Pass, affordable, apply, rebuild};
 use super::regular;
+use super::reuse::reused;
 use super::shape::Indices;
 use super::terms::NetId;
 use crate::algebra::{ExprId, FastMap, Graph, Node, Role, Substitution};
@@ -150,8 +152,8 @@ impl<'a> ProgramBuilder<'a> {
         if let [only] = formulations {
             let mut net = Net::default();
             let roots = staged(self.graph, &mut net, only, effort);
-            let roots = joined(self.graph, &mut net, roots, effort);
-            self.push_cheaper(name, (net, roots), only);
+            let roots = joined(self.graph, &mut net, (roots, only), effort);
+            self.push_cheaper(name, (net, roots), only, effort);
             return 0;
         }
         // Each formulation is looked at briefly; all effort goes into the best ones.
@@ -183,9 +185,11 @@ impl<'a> ProgramBuilder<'a> {
         }
         let (index, mut net, roots) =
             if tried.is_empty() { Default::default() } else { tried.swap_remove(best) };
-        let roots = joined(self.graph, &mut net, roots, effort);
         match formulations.first() {
-            Some(first) => self.push_cheaper(name, (net, roots), first),
+            Some(first) => {
+                let roots = joined(self.graph, &mut net, (roots, &formulations[index]), effort);
+                self.push_cheaper(name, (net, roots), first, effort);
+            }
             None => self.push(name, &net, &roots),
         }
         index
@@ -193,9 +197,18 @@ impl<'a> ProgramBuilder<'a> {
 
     /// Adds the code of some roots; of a long family their code as it is written regularly, without passes, if that costs hardly more:
     /// then loops are found in it.
-    fn push_cheaper(&mut self, name: &str, (mut net, roots): (Net, Vec<NetId>), plain: &Formulation) {
+    fn push_cheaper(
+        &mut self,
+        name: &str,
+        (mut net, roots): (Net, Vec<NetId>),
+        plain: &Formulation,
+        effort: Effort,
+    ) {
         if !self.graph.nests_sums() {
-            return self.push(name, &net, &roots);
+            return match effort {
+                Effort::Hot => self.push_reused(name, &net, &roots),
+                _ => self.push(name, &net, &roots),
+            };
         }
         let indices = Indices::new(self.graph);
         let mut other = Net::default();
@@ -211,9 +224,24 @@ impl<'a> ProgramBuilder<'a> {
         }
     }
 
+    /// Adds the code of some roots, with values by products of others unless digits are lost so.
+    fn push_reused(&mut self, name: &str, net: &Net, roots: &[NetId]) {
+        let program = Candidate::new(self.graph, net, roots);
+        let (code, prepared) = program.parts();
+        let other = reused(self.graph, code, prepared).map(|code| program.with(code));
+        let mut programs: Vec<Candidate> = [program].into_iter().chain(other).collect();
+        let best = accuracy::best(self.graph, &programs);
+        let code = programs.swap_remove(best).loading(&mut self.prepared);
+        self.push_code(name, code);
+    }
+
     /// Adds the code of some roots.
     fn push(&mut self, name: &str, net: &Net, roots: &[NetId]) {
-        let Code { instructions, outputs, values } = lower(self.graph, net, roots, &mut self.prepared);
+        let code = lower(self.graph, net, roots, &mut self.prepared);
+        self.push_code(name, code);
+    }
+
+    fn push_code(&mut self, name: &str, Code { instructions, outputs, values }: Code) {
         let cost = OperationCount::of(&instructions);
         self.functions.push(FunctionProgram { name: name.to_owned(), instructions, outputs, values, cost });
     }
@@ -341,21 +369,38 @@ fn staged(graph: &mut Graph, net: &mut Net, formulation: &Formulation, effort: E
     apply(Pass::Signs, graph, net, &roots)
 }
 
-/// The roots optimised once more as a whole, if that is cheaper: what different depths have in common was not seen at any of them.
-fn joined(graph: &mut Graph, net: &mut Net, roots: Vec<NetId>, effort: Effort) -> Vec<NetId> {
+/// The roots optimised once more as a whole, if that is cheaper: what different depths have in common was not seen at any of them. What
+/// is optimised as a whole from the start is sometimes cheaper still.
+fn joined(
+    graph: &mut Graph,
+    net: &mut Net,
+    (roots, formulation): (Vec<NetId>, &Formulation),
+    effort: Effort,
+) -> Vec<NetId> {
     let nodes = net.reachable(&roots).0.len();
     if effort != Effort::Hot || affordable(nodes) == 0 {
         return roots;
     }
-    let mut whole = roots.clone();
-    for pass in JOINED {
-        whole = apply(pass, graph, net, &whole);
+    let mut starts = vec![roots.clone()];
+    if !formulation.definitions.is_empty() {
+        starts.push(staged(graph, net, formulation, Effort::Regular));
     }
-    if whole == roots {
-        return roots;
+    let mut found = vec![roots];
+    for start in starts {
+        let mut whole = start;
+        for _ in 0..MOST_JOINED {
+            let before = whole.clone();
+            for pass in JOINED {
+                whole = apply(pass, graph, net, &whole);
+            }
+            if whole == before {
+                break;
+            }
+            found.push(whole.clone());
+        }
     }
-    let programs = [&roots, &whole].map(|roots| Candidate::new(graph, net, roots));
-    if accuracy::best(graph, &programs) == 0 { roots } else { whole }
+    let programs: Vec<Candidate> = found.iter().map(|roots| Candidate::new(graph, net, roots)).collect();
+    found.swap_remove(accuracy::best(graph, &programs))
 }
 
 /// The roots as the cheapest sequence of passes leaves them.

@@ -1,8 +1,10 @@
 //! Running programs directly, over any numbers: the reference that emitted code is tested against.
 
+use f256::f256;
+
 use super::{Instruction, Operation, Programs, Value};
 use crate::algebra::{Function, Multivariate, Rational, SymbolId};
-use crate::zero::apply;
+use crate::zero::{Real, apply};
 
 /// Numbers that programs can be run over.
 pub trait Arithmetic: Clone {
@@ -69,6 +71,36 @@ impl Arithmetic for f64 {
             Function::Root(q) if q % 2 == 1 => x.signum() * x.abs().powf(1.0 / f64::from(q)),
             Function::Root(q) => x.powf(1.0 / f64::from(q)),
         }
+    }
+    fn apply(function: Multivariate, arguments: &[Self]) -> Self {
+        apply(function, arguments)
+    }
+}
+
+impl Arithmetic for f256 {
+    fn from_rational(value: &Rational) -> Self {
+        Real::rational(value)
+    }
+    fn pi() -> Self {
+        Real::pi()
+    }
+    fn add(&self, other: &Self) -> Self {
+        *self + *other
+    }
+    fn sub(&self, other: &Self) -> Self {
+        *self - *other
+    }
+    fn neg(&self) -> Self {
+        -*self
+    }
+    fn mul(&self, other: &Self) -> Self {
+        *self * *other
+    }
+    fn div(&self, other: &Self) -> Self {
+        *self / *other
+    }
+    fn call(function: Function, x: &Self) -> Self {
+        x.of(function)
     }
     fn apply(function: Multivariate, arguments: &[Self]) -> Self {
         apply(function, arguments)

@@ -72,6 +72,15 @@ impl Operation {
 }
 
 impl Operation {
+    /// The values that are read, to be changed.
+    pub(super) fn operands_mut(&mut self) -> impl Iterator<Item = &mut Value> {
+        let cosine = match *self {
+            Operation::SinCos { cosine, .. } => Some(cosine),
+            _ => None,
+        };
+        self.values_mut().filter(move |value| Some(**value) != cosine)
+    }
+
     /// The values that are read, and the second one that is defined.
     pub(super) fn values_mut(&mut self) -> impl Iterator<Item = &mut Value> {
         let mut several: &mut [Value] = &mut [];

@@ -18,7 +18,8 @@ pub(super) struct PreparedTable {
 }
 
 impl PreparedTable {
-    fn index(&mut self, k: ExprId) -> usize {
+    /// The place of a constant, a new one where it is not there.
+    pub(super) fn index(&mut self, k: ExprId) -> usize {
         let next = self.expressions.len();
         let index = *self.indices.or_insert_with(k, || next);
         if index == next {

@@ -19,6 +19,7 @@ mod net;
 mod part;
 mod passes;
 mod regular;
+mod reuse;
 mod roll;
 mod shape;
 mod stage;

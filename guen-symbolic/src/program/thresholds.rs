@@ -58,5 +58,14 @@ pub const LARGEST_JACOBIAN: u32 = 6_000;
 /// The number of instructions below which every order of elimination is tried.
 pub(in crate::program) const ORDERED_INSTRUCTIONS: usize = 250;
 
+/// The number of times that a program is optimised as a whole, one after the other.
+pub(in crate::program) const MOST_JOINED: usize = 3;
+
+/// The number of instructions above which values are not compared with products of others: there is one for each pair.
+pub(in crate::program) const REUSE_INSTRUCTIONS: usize = 600;
+
+/// The number of times that values are compared with products of others.
+pub(in crate::program) const REUSE_ROUNDS: usize = 12;
+
 /// The cost of code that is written regularly up to which it is taken, in percent of that of optimised code: in a loop it is short.
 pub(in crate::program) const HARDLY_MORE: u64 = 104;

@@ -34,16 +34,22 @@ pub(super) struct InBodyAxes {
 }
 
 impl InBodyAxes {
-    /// The rates of the state, velocities first.
+    /// The rates of the state, velocities first. Next to an edge of the parameters the products of a constant determinant cancel: by spins, which
+    /// are there for digits at edges, what is divided by depends on the state.
     pub(super) fn rates(
         self,
         bench: &mut Workbench,
         system: &Mechanics,
         generalised_forces: &[ExprId],
+        is_by_spins: bool,
     ) -> Vec<Vec<ExprId>> {
         let equations = self.equations.driven(bench, generalised_forces);
         let Equations { mass, forces } = restriction::restricted(bench, system, equations);
-        let solutions = [Solution::new(bench, &mass, &forces).ok(), Solution::shared(bench, &mass, &forces)];
+        let mut solutions =
+            vec![Solution::new(bench, &mass, &forces).ok(), Solution::shared(bench, &mass, &forces)];
+        if !is_by_spins {
+            solutions.push(Solution::by_constant_determinants(bench, &mass, &forces));
+        }
         let lists = solutions.into_iter().flatten();
         lists.map(|solution| [&self.velocities[..], &solution.accelerations].concat()).collect()
     }

@@ -294,8 +294,12 @@ impl<'a> Assembly<'a> {
         let bias = self.core_bias();
         let mut root: Option<Root> = None;
         let is_large = has_many_parameters(self.kinematics.system);
-        // Of many parameters the matrix at the root has an entry for each pair.
-        let orders = if is_large { &ORDERS[2..] } else { &ORDERS[..] };
+        // Of many parameters the matrix at the root has an entry for each pair; without it there is nothing to differentiate.
+        let orders = match (is_large, self.kinematics.is_at_rest) {
+            (true, _) => &ORDERS[2..],
+            (_, true) => &ORDERS[..2],
+            _ => &ORDERS[..],
+        };
         let (rates, pivots) = self.cheapest(
             orders,
             |this, order| {
@@ -375,7 +379,13 @@ impl<'a> Assembly<'a> {
         }
         let l = self.kinematics.system.forms.degrees;
         let etas: Vec<Var> = (0..l).map(|s| variables.eta(s)).collect();
-        self.form.variables().iter().all(|var| etas.contains(var)).then_some(etas)
+        if !self.form.variables().iter().all(|var| etas.contains(var)) {
+            return None;
+        }
+        if self.kinematics.is_at_rest {
+            self.inertial_forces(&etas);
+        }
+        Some(etas)
     }
 
     /// The rates of the parameters that are left, by their own equations, and what was divided by.

@@ -35,6 +35,8 @@ pub(super) struct Kinematics<'a> {
     pub(super) gradients: Vec<Option<[Vec3; 3]>>,
     pub(super) weights: Vec<Option<Vec3>>,
     pub(super) motion: Option<Rates>,
+    /// Whether velocities are those at zero parameters.
+    pub(super) is_at_rest: bool,
 }
 
 impl<'a> Kinematics<'a> {
@@ -62,7 +64,14 @@ impl<'a> Kinematics<'a> {
             gradients: vec![None; tree.axes.len()],
             weights: vec![None; tree.axes.len()],
             motion: None,
+            is_at_rest: false,
         }
+    }
+
+    /// Goes on at zero parameters: what is accelerated is by gravity and forces alone.
+    pub(super) fn rest(&mut self) {
+        self.values.fill(None);
+        self.is_at_rest = true;
     }
 
     /// The value of a variable.
@@ -81,6 +90,7 @@ impl<'a> Kinematics<'a> {
 
     pub(super) fn fresh_value(&mut self, var: Var) -> Num {
         match self.plan.def(var) {
+            Some(Def::Known) if self.is_at_rest => Num::ZERO,
             Some(Def::Known) => {
                 let Kind::Eta(s) = self.variables.kind(var) else { return Num::ZERO };
                 self.numbers.import(self.bench, self.system.etas[s])
@@ -120,6 +130,7 @@ impl<'a> Kinematics<'a> {
                 self.numbers.add(sum, offset)
             }
             None => match self.variables.kind(var) {
+                Kind::Rate(_) if self.is_at_rest => Num::ZERO,
                 // Nothing in the tree needs it: as the operators have it.
                 Kind::Rate(i) => self.numbers.import(self.bench, self.frame.velocities[i]),
                 _ => match raw_kinematic(self.tree, self.variables, var) {

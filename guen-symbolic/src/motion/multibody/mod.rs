@@ -4,7 +4,7 @@
 //! `axes`, `shifts` and `points` choose axes and origins, `tree` puts them together and regroups what the bodies weigh; `variables` says
 //! which velocities vanish or are one; `forms` and `declared` have the declaration over these, `plan` says what determines
 //! what, `core` solves what is left; `kinematics` goes outwards, `assembly` puts up the quadratic form and the forces and
-//! takes them back to the parameters.
+//! takes them back to the parameters, where `inertial_forces` may find the forces from the form.
 
 mod accelerations;
 mod assembly;
@@ -17,6 +17,7 @@ mod definitions;
 mod directions;
 mod form;
 mod forms;
+mod inertial_forces;
 mod kinematics;
 mod plan;
 mod points;
@@ -87,12 +88,28 @@ pub(super) fn rates(
     }
     // What is pinned in the world may be found from its pins, where it is not found otherwise.
     let ways = if system.holonomic.is_empty() { &[false][..] } else { &[false, true] };
-    ways.iter().find_map(|solves_back| {
-        (0..POINTS).find_map(|point| {
-            let point = (point, on_manifold);
-            attempt(bench, system, frame, partials, point, *solves_back, &is_stated)
-        })
-    })
+    let mut by = |bench: &mut Workbench, way| {
+        (0..POINTS)
+            .find_map(|point| attempt(bench, system, frame, partials, (point, on_manifold), way, &is_stated))
+    };
+    let by_bodies =
+        ways.iter().find_map(|solves_back| by(bench, Way { solves_back: *solves_back, by_mass: false }));
+    let by_bodies = by_bodies?;
+    if !inertial_forces::are_derivatives(bench, system, frame) {
+        return Some(by_bodies);
+    }
+    let by_mass = by(bench, Way { solves_back: false, by_mass: true });
+    let cost = |found: &Found| weighted_cost(&bench.graph, &found.rates);
+    Some(by_mass.filter(|found| cost(found) < cost(&by_bodies)).unwrap_or(by_bodies))
+}
+
+/// A way to put up the equations.
+#[derive(Clone, Copy, Default)]
+struct Way {
+    /// Whether kinematics of velocities that are determined otherwise determine others.
+    solves_back: bool,
+    /// Whether inertial forces are derivatives of the mass matrix, and not those of the bodies.
+    by_mass: bool,
 }
 
 fn has_general_turns(system: &Mechanics) -> bool {
@@ -139,9 +156,10 @@ pub(super) fn freed(
     let mut attempt = |free: &Mechanics, point| {
         let generation = bench.zero.generation();
         let mut own = Numbering::new(&mut bench.graph, (point, on_manifold), generation);
-        let (mass, forces) = assembled(bench, &mut own, (free, l, false), frame, partials, |assembly, _| {
-            assembly.at_the_root()
-        })?;
+        let (mass, forces) =
+            assembled(bench, &mut own, (free, l, Way::default()), frame, partials, |assembly, _| {
+                assembly.at_the_root()
+            })?;
         if !own.is_sound() {
             return None;
         }
@@ -169,7 +187,7 @@ pub(super) fn freed(
 fn assembled<T>(
     bench: &mut Workbench,
     numbers: &mut Numbering,
-    (system, moving, solves_back): (&Mechanics, usize, bool),
+    (system, moving, way): (&Mechanics, usize, Way),
     frame: &Frame,
     partials: &mut VelocityPartials,
     then: impl FnOnce(&mut Assembly<'_>, Vec<Num>) -> Option<T>,
@@ -195,7 +213,7 @@ fn assembled<T>(
         tree: &tree,
         variables: &variables,
         known: FastMap::default(),
-        solves_back,
+        solves_back: way.solves_back,
     };
     let plan = planner.plan(declared.rows, &declared.groups, &needed)?;
     let core = Core::new(&mut planner, &plan)?;
@@ -205,6 +223,13 @@ fn assembled<T>(
     // Forces may be written in velocities and in the names of constraints.
     for (symbol, value) in system.velocities.iter().zip(&velocities) {
         kinematics.numbers.define(*symbol, *value);
+    }
+    if way.by_mass {
+        // What is beside the bodies has its inertial forces already.
+        if !strains.is_empty() || beside.iter().any(|row| !row.inertia.is_empty()) {
+            return None;
+        }
+        kinematics.rest();
     }
     let mut assembly = Assembly::new(kinematics);
     assembly.bodies();
@@ -222,17 +247,16 @@ fn attempt(
     frame: &Frame,
     partials: &mut VelocityPartials,
     point: (usize, bool),
-    solves_back: bool,
+    way: Way,
     is_stated: impl Fn(u64) -> bool,
 ) -> Option<Found> {
     let (n, l) = (system.forms.len(), system.forms.degrees);
     let generation = bench.zero.generation();
     let mut own = Numbering::new(&mut bench.graph, point, generation);
-    let solved =
-        assembled(bench, &mut own, (system, l, solves_back), frame, partials, |assembly, velocities| {
-            let (accelerations, pivots, root) = assembly.solve()?;
-            Some((velocities, accelerations, pivots, root))
-        });
+    let solved = assembled(bench, &mut own, (system, l, way), frame, partials, |assembly, velocities| {
+        let (accelerations, pivots, root) = assembly.solve()?;
+        Some((velocities, accelerations, pivots, root))
+    });
     let (velocities, accelerations, pivots, root) = solved?;
     if !own.is_sound() {
         return None;

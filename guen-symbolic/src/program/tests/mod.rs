@@ -1,6 +1,7 @@
 //! Programs equal their expressions, with and without each pass.
 
 mod jacobian;
+mod reuse;
 mod systems;
 
 use super::lower::{PreparedTable, lower};
