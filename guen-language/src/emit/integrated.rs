@@ -134,11 +134,11 @@ pub(super) fn prices(subject: &Subject<'_, '_>, layout: &Layout, checks: &CheckO
     let one = (rhs + STAGE_COST * layout.size as u64).max(1);
     let check = u32::try_from((checks.all + CHECK_OVERHEAD).div_ceil(one)).unwrap_or(u32::MAX);
     let singularities = (checks.singularities > 0).then(|| {
-        // In hundredths, which are enough and read well.
-        let price = ((checks.singularities + SINGULARITY_CHECK_OVERHEAD) * 100).div_ceil(one) as f64 / 100.0;
+        // In hundredths, which are enough. As one number a lint of the user's may take them for pi.
+        let hundredths = ((checks.singularities + SINGULARITY_CHECK_OVERHEAD) * 100).div_ceil(one) as f64;
         quote! {
             fn singularity_check_cost(&self) -> f64 {
-                #price
+                #hundredths / 100.0
             }
         }
     });
