@@ -382,7 +382,8 @@ fn joined(
         return roots;
     }
     let mut starts = vec![roots.clone()];
-    if !formulation.definitions.is_empty() {
+    // In a long family the regular code is taken nearly always.
+    if !formulation.definitions.is_empty() && !graph.nests_sums() {
         starts.push(staged(graph, net, formulation, Effort::Regular));
     }
     let mut found = vec![roots];
