@@ -46,6 +46,49 @@ pub fn declaration(name: &str, axes: &str) -> String {
     )
 }
 
+/// The axes of the longest general arm, of which the others are the first ones.
+pub const GENERAL_AXES: &str = "zyzyzyzyz";
+
+/// The declaration of an arm whose bodies differ and have all moments and products of inertia and all components of their offsets.
+pub fn general(joints: usize) -> String {
+    let list =
+        |entry: &dyn Fn(usize) -> String, gap: &str| (1..=joints).map(entry).collect::<Vec<_>>().join(gap);
+    let constants = |i: usize| {
+        let own = format!("m{i} > 0, A{i} > 0, B{i} > 0, C{i} > 0, D{i}, E{i}, F{i}, x{i}, y{i}, z{i}");
+        if i == joints { own } else { format!("{own}, u{i}, v{i}, w{i}") }
+    };
+    let place = |i: usize| {
+        let (before, base) = match i {
+            1 => (String::new(), String::new()),
+            _ => (format!("R{}*", i - 1), format!("p{} + ", i - 1)),
+        };
+        let (axis, next) =
+            (&GENERAL_AXES[i - 1..i], format!(" let p{i} = {base}R{i}*vec(u{i}, v{i}, w{i});"));
+        let next = if i == joints { String::new() } else { next };
+        format!("let R{i} = {before}rot_{axis}(q{i}); let c{i} = {base}R{i}*vec(x{i}, y{i}, z{i});{next}")
+    };
+    format!(
+        "pub system Arm {{
+            constants {{ {}, g = 9.81 }}
+            coordinates {{ {} }}
+            {}
+            parameters {{ {} }}
+            bodies {{ {} }}
+            gravity = vec(0, 0, -g);
+        }}",
+        list(&constants, ", "),
+        list(&|i| format!("q{i}"), ", "),
+        list(&place, "\n            "),
+        list(&|i| format!("s{i} = dot(q{i});"), " "),
+        list(
+            &|i| format!(
+                "b{i} {{ mass: m{i}, inertia: sym(A{i}, B{i}, C{i}, D{i}, E{i}, F{i}), center: c{i}, orientation: R{i} }}"
+            ),
+            " "
+        ),
+    )
+}
+
 /// The module of declarations, as the build script writes it.
 pub fn declarations() -> String {
     let mut text = String::new();
