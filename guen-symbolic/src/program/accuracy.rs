@@ -128,12 +128,19 @@ pub(super) struct Point {
     seed: u64,
     /// A symbol that is moved from its draw.
     moved: Option<(SymbolId, f64)>,
+    /// Whether constants of which no sign is known have either.
+    has_all_signs: bool,
 }
 
 impl Point {
-    /// The point of a number.
-    pub(super) fn drawn(seed: u64) -> Self {
-        Point { seed, moved: None }
+    /// The point of a number, at which all constants are positive that may be.
+    fn drawn(seed: u64) -> Self {
+        Point { seed, moved: None, has_all_signs: false }
+    }
+
+    /// The point of a number, at which everything may be that is not excluded.
+    pub(super) fn anywhere(seed: u64) -> Self {
+        Point { has_all_signs: true, ..Self::drawn(seed) }
     }
 
     pub(super) fn value(&self, graph: &Graph, symbol: SymbolId) -> f64 {
@@ -150,7 +157,7 @@ impl Point {
             Bound::Positive | Bound::NonNegative => 0.3 + 1.5 * part,
             Bound::Negative | Bound::NonPositive => -0.3 - 1.5 * part,
             // What a bound promises must not change which program is taken.
-            _ if info.role == Role::Constant => 0.3 + 1.5 * part,
+            _ if info.role == Role::Constant && !self.has_all_signs => 0.3 + 1.5 * part,
             Bound::Free | Bound::NonZero => 3.0 * part - 1.5,
         }
     }

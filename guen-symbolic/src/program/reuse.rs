@@ -16,7 +16,7 @@ use super::evaluate::{Arithmetic, run};
 use super::instruction::{Instruction, Operation, Value};
 use super::lower::Code;
 use super::thresholds::{REUSE_INSTRUCTIONS, REUSE_ROUNDS};
-use crate::algebra::{ExprId, FastMap, Function, Graph, SymbolId};
+use crate::algebra::{ExprId, FastMap, Function, Graph, Node, SymbolId};
 use crate::zero::{Real, evaluate};
 
 /// Points at which values are compared: a root of a square has a sign at each.
@@ -46,9 +46,10 @@ pub(super) fn reused(graph: &Graph, code: &Code, prepared: &[ExprId]) -> Option<
     }
     let before = code;
     let mut code = before.clone();
+    let loads = Loads::new(graph, prepared);
     for _ in 0..REUSE_ROUNDS {
-        let points = Points::new(graph, &code, prepared);
-        let ways = Search::new(&code, &points).ways();
+        let points = Points::new(graph, &code, prepared, &loads);
+        let ways = Search::new(&code, &points, &loads).ways();
         if ways.is_empty() {
             break;
         }
@@ -56,7 +57,7 @@ pub(super) fn reused(graph: &Graph, code: &Code, prepared: &[ExprId]) -> Option<
         let mut progress = false;
         for way in ways {
             // What was replaced before may have taken what this one builds on.
-            let search = Search::new(&code, &points);
+            let search = Search::new(&code, &points, &loads);
             if search.gain(way.value, way.factors, way.is_negative) != Some(way.gain) || !way.is_exact(&long)
             {
                 continue;
@@ -75,6 +76,44 @@ pub(super) fn reused(graph: &Graph, code: &Code, prepared: &[ExprId]) -> Option<
         }
     }
     (code.instructions != before.instructions).then_some(code)
+}
+
+/// The constants that a program loads.
+struct Loads {
+    /// Whether each hangs on a branch.
+    is_branch: Vec<bool>,
+    /// Whether each is undefined for some constants.
+    is_partial: Vec<bool>,
+    has_root: bool,
+}
+
+impl Loads {
+    fn new(graph: &Graph, prepared: &[ExprId]) -> Self {
+        let mut loads = Loads { is_branch: Vec::new(), is_partial: Vec::new(), has_root: false };
+        for e in prepared {
+            let (mut branches, mut partial) = (false, false);
+            for id in graph.reachable(&[*e], |_| false) {
+                match graph.node(id) {
+                    Node::Function(function, _) => {
+                        branches |= has_branches(*function);
+                        partial |= matches!(function, Function::Root(_) | Function::Ln);
+                        loads.has_root |= matches!(function, Function::Root(_));
+                    }
+                    Node::Multivariate(..) => branches = true,
+                    Node::Product(factors) => {
+                        let divides = |(base, exponent): &(ExprId, i32)| {
+                            *exponent < 0 && !graph.manifestly_nonzero(*base)
+                        };
+                        partial |= factors.iter().any(divides);
+                    }
+                    _ => {}
+                }
+            }
+            loads.is_branch.push(branches);
+            loads.is_partial.push(partial);
+        }
+        loads
+    }
 }
 
 impl Way {
@@ -99,12 +138,13 @@ struct Points {
 }
 
 impl Points {
-    fn new(graph: &Graph, code: &Code, prepared: &[ExprId]) -> Self {
+    fn new(graph: &Graph, code: &Code, prepared: &[ExprId], loads: &Loads) -> Self {
         let has_root = |i: &Instruction| matches!(i.operation, Operation::Call(Function::Root(_), _));
-        let wanted = if code.instructions.iter().any(has_root) { POINTS } else { LONG_POINTS };
+        let wanted =
+            if loads.has_root || code.instructions.iter().any(has_root) { POINTS } else { LONG_POINTS };
         let mut drawn: Vec<(usize, Point, Vec<f64>)> = Vec::new();
         for seed in 0..wanted as u64 {
-            let point = Point::drawn(seed);
+            let point = Point::anywhere(seed);
             let values = values_at(code, prepared, graph, |symbol| point.value(graph, symbol));
             drawn.push((values.iter().filter(|value| !value.is_finite()).count(), point, values));
         }
@@ -160,12 +200,13 @@ struct Search<'a> {
     defined: Vec<Option<usize>>,
     /// The number of operands and outputs that are each value.
     uses: Vec<u32>,
-    /// The divisions and roots that each value hangs on, a bit for each; none where it hangs on a branch.
+    /// The divisions and roots that each value hangs on, a bit for each, constants with such ones among them; none where it hangs on a
+    /// branch.
     domains: Vec<Option<Vec<u64>>>,
 }
 
 impl<'a> Search<'a> {
-    fn new(code: &'a Code, points: &'a Points) -> Self {
+    fn new(code: &'a Code, points: &'a Points, loads: &Loads) -> Self {
         let mut search = Search {
             code,
             points,
@@ -175,7 +216,7 @@ impl<'a> Search<'a> {
         };
         let words = code.instructions.len().div_ceil(64);
         for (place, instruction) in code.instructions.iter().enumerate() {
-            let mut domain = (!is_branch(&instruction.operation)).then(|| vec![0; words]);
+            let mut domain = (!is_branch(&instruction.operation, loads)).then(|| vec![0; words]);
             for operand in instruction.operation.operands() {
                 search.uses[operand.index()] += 1;
                 match (&mut domain, &search.domains[operand.index()]) {
@@ -185,10 +226,12 @@ impl<'a> Search<'a> {
                     _ => domain = None,
                 }
             }
-            if let Operation::Div(..) | Operation::Call(Function::Root(_) | Function::Ln, _) =
-                instruction.operation
-                && let Some(own) = &mut domain
-            {
+            let is_partial = match instruction.operation {
+                Operation::Div(..) | Operation::Call(Function::Root(_) | Function::Ln, _) => true,
+                Operation::Prepared(k) => loads.is_partial[k],
+                _ => false,
+            };
+            if let Some(own) = domain.as_mut().filter(|_| is_partial) {
                 own[place / 64] |= 1 << (place % 64);
             }
             for value in results(instruction) {
@@ -377,22 +420,19 @@ fn results(instruction: &Instruction) -> impl Iterator<Item = Value> {
 }
 
 /// Whether points show one branch of an operation.
-fn is_branch(operation: &Operation) -> bool {
+fn is_branch(operation: &Operation, loads: &Loads) -> bool {
     match operation {
-        Operation::Call(function, _) => !matches!(
-            function,
-            Function::Sin
-                | Function::Cos
-                | Function::Exp
-                | Function::Ln
-                | Function::Sinh
-                | Function::Cosh
-                | Function::Tanh
-                | Function::Root(_)
-        ),
+        Operation::Call(function, _) => has_branches(*function),
         Operation::Apply(..) => true,
+        Operation::Prepared(k) => loads.is_branch[*k],
         _ => false,
     }
+}
+
+/// Whether a function is another one at other points: not so a root, whose sign is seen at the points that are drawn for it.
+fn has_branches(function: Function) -> bool {
+    use Function::{Cos, Cosh, Exp, Ln, Root, Sin, Sinh, Tanh};
+    !matches!(function, Sin | Cos | Exp | Ln | Sinh | Cosh | Tanh | Root(_))
 }
 
 /// A number that is the same, or differs by one, for numbers of nearly the same size.

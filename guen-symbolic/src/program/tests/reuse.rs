@@ -3,23 +3,25 @@
 use f256::f256;
 
 use super::Dice;
-use crate::algebra::{Bound, Function, Graph, Multivariate, Rational, Role, SymbolId};
+use crate::algebra::{Bound, ExprId, Function, Graph, Multivariate, Rational, Role, SymbolId};
 use crate::program::OperationCount;
 use crate::program::evaluate::run;
 use crate::program::instruction::{Instruction, Operation, Value};
 use crate::program::lower::Code;
 use crate::program::reuse::{in_order, reused};
+use crate::zero::evaluate;
 
 /// Code that is written operation by operation, on four symbols.
 struct Writer {
     graph: Graph,
     code: Code,
+    prepared: Vec<ExprId>,
 }
 
 impl Writer {
     fn new() -> Self {
         let code = Code { instructions: Vec::new(), outputs: Vec::new(), values: 0 };
-        Writer { graph: Graph::new(), code }
+        Writer { graph: Graph::new(), code, prepared: Vec::new() }
     }
 
     fn put(&mut self, operation: Operation) -> Value {
@@ -40,15 +42,17 @@ impl Writer {
     /// The operations before and after, with these outputs; and that these stay what they are.
     fn costs(mut self, outputs: &[Value]) -> [u32; 2] {
         self.code.outputs = outputs.to_vec();
-        let Writer { graph, mut code } = self;
+        let Writer { graph, mut code, prepared } = self;
         code.instructions = in_order(&code.instructions, &code.outputs, code.values);
-        let after = reused(&graph, &code, &[]).unwrap_or_else(|| code.clone());
+        let after = reused(&graph, &code, &prepared).unwrap_or_else(|| code.clone());
         let mut dice = Dice(7);
         for _ in 0..8 {
             let drawn: Vec<f256> = (0..8).map(|_| f256::from(2.0 * dice.real() - 2.0)).collect();
             let symbol = |symbol: SymbolId| drawn[symbol.index()];
-            let [before, after] =
-                [&code, &after].map(|code| run(&code.instructions, code.values, &code.outputs, &[], symbol));
+            let constants = evaluate(&graph, &prepared, &symbol);
+            let outputs =
+                |code: &Code| run(&code.instructions, code.values, &code.outputs, &constants, symbol);
+            let [before, after] = [&code, &after].map(outputs);
             for (before, after) in before.into_iter().zip(after) {
                 // What was undefined may be defined now.
                 let is_close = f256::abs(&(before - after)) <= f256::from(1e-20);
@@ -118,6 +122,20 @@ fn nothing_is_divided_by_that_was_not() {
     assert_eq!(code.costs(&[first, second, value]), [5, 5]);
 }
 
+/// `x y z` is `(x y/k) (k z)`, but not for `k = 0`.
+#[test]
+fn no_constant_is_divided_by_that_was_not() {
+    let mut code = Writer::new();
+    let k = code.graph.symbol("k", Role::Constant);
+    code.prepared = vec![k, code.graph.powi(k, -1)];
+    let [x, y, z] = code.symbols();
+    let (k, inverse) = (code.put(Operation::Prepared(0)), code.put(Operation::Prepared(1)));
+    let (xk, xz) = (code.put(Operation::Mul(x, inverse)), code.put(Operation::Mul(x, z)));
+    let (first, second) = (code.put(Operation::Mul(xk, y)), code.put(Operation::Mul(k, z)));
+    let value = code.put(Operation::Mul(xz, y));
+    assert_eq!(code.costs(&[first, second, value]), [5, 5]);
+}
+
 /// A maximum is one of its arguments at some points; a root of a square has either sign at some point.
 #[test]
 fn one_branch_is_not_taken_for_all() {
@@ -139,6 +157,27 @@ fn one_branch_is_not_taken_for_all() {
         let value = code.put(Operation::Sub(first, second));
         let [before, after] = code.costs(&[value]);
         assert_eq!((before, after), if is_root { (6, 3) } else { (4, 4) });
+    }
+}
+
+/// A constant is no root of its square and not its absolute value: it may be negative.
+#[test]
+fn constants_have_both_signs() {
+    for is_root in [false, true] {
+        let mut code = Writer::new();
+        let graph = &mut code.graph;
+        let (a, one) = (graph.symbol("a", Role::Constant), graph.one());
+        let (k, twice, square) = (graph.add(a, one), graph.add(a, a), graph.powi(a, 2));
+        // (a + 1)^2, multiplied out: nothing knows the root.
+        let power = graph.sum([square, twice, one]);
+        let size = if is_root { graph.sqrt(power) } else { graph.function(Function::Abs, k) };
+        code.prepared = vec![k, size];
+        let [x, y] = code.symbols();
+        let (k, size) = (code.put(Operation::Prepared(0)), code.put(Operation::Prepared(1)));
+        let kx = code.put(Operation::Mul(k, x));
+        let first = code.put(Operation::Mul(size, y));
+        let value = code.put(Operation::Mul(first, x));
+        assert_eq!(code.costs(&[kx, value]), [3, 3]);
     }
 }
 
