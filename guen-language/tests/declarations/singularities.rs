@@ -7,10 +7,7 @@
 
 use f256::f256;
 use guen_language::derive::{Derived, Level, function};
-use guen_symbolic::{
-    Arithmetic, ExprId, Function, Multivariate, Rational, Real, SymbolId, evaluate, evaluate_function,
-    evaluate_prepare,
-};
+use guen_symbolic::{Arithmetic, ExprId, Rational, SymbolId, evaluate, evaluate_function, evaluate_prepare};
 
 use crate::common::derived;
 
@@ -22,47 +19,6 @@ const REACTIONS: f64 = 16.0;
 const BEGIN: f64 = 0.1;
 const NEARER: f64 = 0.35;
 const STATES: usize = 12;
-
-/// 71 digits.
-#[derive(Clone, Copy)]
-struct Long(f256);
-
-impl Arithmetic for Long {
-    fn from_rational(value: &Rational) -> Self {
-        Long(f256::rational(value))
-    }
-    fn pi() -> Self {
-        Long(<f256 as Real>::pi())
-    }
-    fn add(&self, other: &Self) -> Self {
-        Long(self.0 + other.0)
-    }
-    fn sub(&self, other: &Self) -> Self {
-        Long(self.0 - other.0)
-    }
-    fn neg(&self) -> Self {
-        Long(-self.0)
-    }
-    fn mul(&self, other: &Self) -> Self {
-        Long(self.0 * other.0)
-    }
-    fn div(&self, other: &Self) -> Self {
-        Long(self.0 / other.0)
-    }
-    fn call(function: Function, x: &Self) -> Self {
-        Long(x.0.of(function))
-    }
-    fn apply(function: Multivariate, arguments: &[Self]) -> Self {
-        let at = |place: usize| arguments[place].0;
-        Long(match function {
-            Multivariate::Atan2 => at(0).angle(at(1)),
-            Multivariate::Select => at(0).choose(at(1), at(2)),
-            Multivariate::Maximum => (at(0) - at(1)).choose(at(0), at(1)),
-            Multivariate::Minimum => (at(0) - at(1)).choose(at(1), at(0)),
-            Multivariate::Supplied { .. } => panic!("nobody supplies functions here"),
-        })
-    }
-}
 
 fn double(x: f256) -> f64 {
     format!("{x:.30e}").parse().expect("a number")
@@ -123,9 +79,9 @@ impl<'a> Asked<'a> {
     }
 
     /// The condition of the mass matrix in the largest row sum.
-    fn kappa(&self, z: &[Long]) -> f64 {
+    fn kappa(&self, z: &[f256]) -> f64 {
         let value = |symbol: SymbolId| {
-            self.symbols.iter().position(|other| *other == symbol).map_or(f256::ZERO, |k| z[k].0)
+            self.symbols.iter().position(|other| *other == symbol).map_or(f256::ZERO, |k| z[k])
         };
         let mass = self.level.derivation.equations.mass.concat();
         let l = self.accelerations.len();
@@ -158,24 +114,24 @@ impl<'a> Asked<'a> {
 
     /// Asserts that everything is right at a state.
     fn is_right(&self, name: &str, z: &[f64]) {
-        let exact_z: Vec<Long> = z.iter().map(|x| Long(f256::from(*x))).collect();
+        let exact_z: Vec<f256> = z.iter().map(|x| f256::from(*x)).collect();
         let (found, exact) = (self.outputs(z), self.outputs(&exact_z));
         // Differences in 71 digits are derivatives to 25.
         let step = f256::from(1e-25);
         let mut sensitivity = vec![f256::ZERO; exact.len()];
         for k in 0..z.len() {
             let mut moved = exact_z.clone();
-            moved[k].0 *= f256::ONE + step;
+            moved[k] *= f256::ONE + step;
             for (sum, (a, b)) in sensitivity.iter_mut().zip(self.outputs(&moved).iter().zip(&exact)) {
-                *sum += (a.0 - b.0).abs() / step;
+                *sum += (*a - *b).abs() / step;
             }
         }
         let kappa = self.kappa(&exact_z);
         let l = self.accelerations.len();
         let velocities = self.level.derivation.system.forms.len();
         for (i, (found, exact)) in found.iter().zip(&exact).enumerate() {
-            let error = double((f256::from(*found) - exact.0).abs());
-            let (condition, size) = (double(sensitivity[i]), double(exact.0.abs()));
+            let error = double((f256::from(*found) - *exact).abs());
+            let (condition, size) = (double(sensitivity[i]), double(exact.abs()));
             let allowed = if i < velocities {
                 FACTOR * (condition + kappa * size)
             } else if i < velocities + l {

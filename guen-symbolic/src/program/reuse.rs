@@ -56,7 +56,7 @@ pub(super) fn reused(graph: &Graph, code: &Code, prepared: &[ExprId]) -> Option<
         let long = points.long(graph, &code, prepared);
         let mut progress = false;
         for way in ways {
-            // What was replaced before may have taken what this one builds on.
+            // An earlier replacement of this round may have removed a factor, or changed the gain.
             let search = Search::new(&code, &points, &loads);
             if search.gain(way.value, way.factors, way.is_negative) != Some(way.gain) || !way.is_exact(&long)
             {
@@ -66,7 +66,7 @@ pub(super) fn reused(graph: &Graph, code: &Code, prepared: &[ExprId]) -> Option<
             let is_turned = turned.is_some();
             code = search.replaced(&way, turned);
             progress = true;
-            // With a sign turned values are others than at the points.
+            // Some values have the opposite sign now: the values at the points have to be computed anew.
             if is_turned {
                 break;
             }

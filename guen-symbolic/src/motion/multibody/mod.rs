@@ -225,7 +225,7 @@ fn assembled<T>(
         kinematics.numbers.define(*symbol, *value);
     }
     if way.by_mass {
-        // What is beside the bodies has its inertial forces already.
+        // The rows of other energies and of strained frames contain their inertial forces: with the derivatives they would count twice.
         if !strains.is_empty() || beside.iter().any(|row| !row.inertia.is_empty()) {
             return None;
         }

@@ -54,7 +54,7 @@ impl Writer {
                 |code: &Code| run(&code.instructions, code.values, &code.outputs, &constants, symbol);
             let [before, after] = [&code, &after].map(outputs);
             for (before, after) in before.into_iter().zip(after) {
-                // What was undefined may be defined now.
+                // A value that was not finite may be anything: a division may have left the code.
                 let is_close = f256::abs(&(before - after)) <= f256::from(1e-20);
                 assert!(is_close || !before.is_finite(), "{before} {after}");
             }
@@ -160,7 +160,7 @@ fn one_branch_is_not_taken_for_all() {
     }
 }
 
-/// A constant is no root of its square and not its absolute value: it may be negative.
+/// A constant of unknown sign may be negative: it is neither the root of its square nor its absolute value.
 #[test]
 fn constants_have_both_signs() {
     for is_root in [false, true] {
