@@ -1,9 +1,9 @@
-//! Values that are products of others: what a sum of several operations computes may be one multiplication of values that are there.
+//! Values of a program that are products of two others: one multiplication in place of the operations that computed them.
 //!
-//! No pass over expressions sees that `w^2 j^2 + k^2 i^2 + ..` is `(w^2 + k^2)(i^2 + j^2)` where both factors are computed elsewhere, or
-//! that they are computed at all. Here it is seen by numbers: every value of a program is compared with all products of two others at
-//! random points, and what agrees there to two hundred bits is one multiplication. A value is replaced where the operations that only
-//! it needs cost more; a product loses no digits that its factors have.
+//! No pass over expressions finds that `w^2 i^2 + w^2 j^2 + ..` is `(w^2 + k^2)(i^2 + j^2)` where both factors are computed for something
+//! else. Here numbers find it: every value is compared with all products of two others at random points, and what agrees there
+//! in 237 bits is that product. A value is replaced where the operations that nothing else needs cost more than the multiplication. Unlike
+//! sums, products do not cancel.
 //!
 //! Factors may divide by what the value divided by and by nothing else, so that a program is defined where it was. What depends on
 //! a branch (absolute values, inverse functions, `select`) is left alone: points show one branch.
@@ -23,9 +23,9 @@ use crate::zero::{Real, evaluate};
 const POINTS: usize = 24;
 /// Points at which values are compared in 237 bits.
 const LONG_POINTS: usize = 2;
-/// The difference up to which values may be equal, as a fraction of them: in double precision,
+/// The relative difference up to which values may be equal in double precision.
 const NEAR: f64 = 1e-7;
-/// and in 237 bits.
+/// The relative difference up to which values are equal in 237 bits.
 const EQUAL: f64 = 1e-55;
 
 /// A way to compute a value by one multiplication, or by none.
@@ -80,7 +80,7 @@ pub(super) fn reused(graph: &Graph, code: &Code, prepared: &[ExprId]) -> Option<
 
 /// The constants that a program loads.
 struct Loads {
-    /// Whether each hangs on a branch.
+    /// Whether each depends on a branch.
     is_branch: Vec<bool>,
     /// Whether each is undefined for some constants.
     is_partial: Vec<bool>,
@@ -192,7 +192,7 @@ fn values_at<R: Arithmetic + Real>(
     run(&code.instructions, code.values, &all, &constants, symbols)
 }
 
-/// A program, and what its values hang on.
+/// A program, and what its values depend on.
 struct Search<'a> {
     code: &'a Code,
     points: &'a Points,
@@ -200,7 +200,7 @@ struct Search<'a> {
     defined: Vec<Option<usize>>,
     /// The number of operands and outputs that are each value.
     uses: Vec<u32>,
-    /// The divisions and roots that each value hangs on, a bit for each, constants with such ones among them; none where it hangs on a
+    /// The divisions and roots that each value depends on, a bit for each, constants with such ones among them; none where it depends on a
     /// branch.
     domains: Vec<Option<Vec<u64>>>,
 }
@@ -371,7 +371,7 @@ impl<'a> Search<'a> {
         OperationCount::of(&gone).weighted()
     }
 
-    /// The values that hang on a value, itself among them.
+    /// The values that depend on a value, itself among them.
     fn above(&self, value: Value) -> Vec<bool> {
         let mut above = vec![false; self.code.values];
         above[value.index()] = true;

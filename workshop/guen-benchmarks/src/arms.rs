@@ -10,11 +10,14 @@ pub const AXES: &str = "zyyxyxyxy";
 /// The arms that are declared: axes from the base on, module.
 pub const DECLARED: [(&str, &str); 2] = [("zyx", "arm3"), ("zyyxyx", "arm6")];
 
+/// The entries of all joints in one line, with something between them.
+fn list(joints: usize, entry: &dyn Fn(usize) -> String, gap: &str) -> String {
+    (1..=joints).map(entry).collect::<Vec<_>>().join(gap)
+}
+
 /// The declaration of an arm, without the macro around it.
 pub fn declaration(name: &str, axes: &str) -> String {
     let joints = axes.len();
-    let list =
-        |entry: &dyn Fn(usize) -> String, gap: &str| (1..=joints).map(entry).collect::<Vec<_>>().join(gap);
     let place = |i: usize| {
         let axis = &axes[i - 1..i];
         let (before, base) = match i {
@@ -34,10 +37,11 @@ pub fn declaration(name: &str, axes: &str) -> String {
             bodies {{ {} }}
             gravity = vec(0, 0, -g);
         }}",
-        list(&|i| format!("q{i}"), ", "),
-        list(&place, "\n            "),
-        list(&|i| format!("w{i} = dot(q{i});"), " "),
+        list(joints, &|i| format!("q{i}"), ", "),
+        list(joints, &place, "\n            "),
+        list(joints, &|i| format!("w{i} = dot(q{i});"), " "),
         list(
+            joints,
             &|i| format!(
                 "b{i} {{ mass: m, inertia: sym(A, B, C, D, 0, 0), center: c{i}, orientation: R{i} }}"
             ),
@@ -51,8 +55,6 @@ pub const GENERAL_AXES: &str = "zyzyzyzyz";
 
 /// The declaration of an arm whose bodies differ and have all moments and products of inertia and all components of their offsets.
 pub fn general(joints: usize) -> String {
-    let list =
-        |entry: &dyn Fn(usize) -> String, gap: &str| (1..=joints).map(entry).collect::<Vec<_>>().join(gap);
     let constants = |i: usize| {
         let own = format!("m{i} > 0, A{i} > 0, B{i} > 0, C{i} > 0, D{i}, E{i}, F{i}, x{i}, y{i}, z{i}");
         if i == joints { own } else { format!("{own}, u{i}, v{i}, w{i}") }
@@ -76,11 +78,12 @@ pub fn general(joints: usize) -> String {
             bodies {{ {} }}
             gravity = vec(0, 0, -g);
         }}",
-        list(&constants, ", "),
-        list(&|i| format!("q{i}"), ", "),
-        list(&place, "\n            "),
-        list(&|i| format!("s{i} = dot(q{i});"), " "),
+        list(joints, &constants, ", "),
+        list(joints, &|i| format!("q{i}"), ", "),
+        list(joints, &place, "\n            "),
+        list(joints, &|i| format!("s{i} = dot(q{i});"), " "),
         list(
+            joints,
             &|i| format!(
                 "b{i} {{ mass: m{i}, inertia: sym(A{i}, B{i}, C{i}, D{i}, E{i}, F{i}), center: c{i}, orientation: R{i} }}"
             ),
