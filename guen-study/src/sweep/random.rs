@@ -50,37 +50,48 @@ pub(super) fn unit(bits: u64) -> f64 {
 /// Rounds of the network below: four make a pseudorandom permutation (Luby and Rackoff 1988), and small ones mix better with two more.
 const ROUNDS: usize = 6;
 
-/// A permutation of `0 .. count` that is computed, not stored: a Feistel network over the next power of four, walked until it
-/// falls into the range.
+/// A permutation of `0 .. count` that is computed, not stored: a Feistel network over the next power of two, walked until it
+/// falls into the range. Less than two walks are needed on average.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Permutation {
-    keys: [u64; ROUNDS],
+    keys: [[u64; 2]; ROUNDS / 2],
     count: u64,
-    half: u32,
+    /// Bits of the left and of the right half, which differ by one at most.
+    widths: [u32; 2],
 }
 
 impl Permutation {
     pub(super) fn new(random: Philox, stream: u64, count: u64) -> Self {
         let bits = 64 - count.saturating_sub(1).leading_zeros();
-        let keys = std::array::from_fn(|round| random.bits(round as u64, stream));
-        Self { keys, count, half: bits.div_ceil(2).max(1) }
+        let key = |round: usize| random.bits(round as u64, stream);
+        let keys = std::array::from_fn(|pair| [key(2 * pair), key(2 * pair + 1)]);
+        Self { keys, count, widths: [bits.div_ceil(2), bits / 2] }
     }
 
     /// The place that `index` goes to.
     pub(super) fn at(&self, index: u64) -> u64 {
-        let mask = (1_u64 << self.half) - 1;
+        let [left_mask, right_mask] = self.widths.map(|width| (1_u64 << width) - 1);
+        let [_, low] = self.widths;
         let mut place = index;
         loop {
-            let (mut left, mut right) = (place >> self.half, place & mask);
-            for key in self.keys {
-                (left, right) = (right, left ^ (mixed(right ^ key) & mask));
+            let (mut left, mut right) = (place >> low, place & right_mask);
+            // The halves change places in every round, so they are taken in pairs.
+            for [first, second] in self.keys {
+                left ^= hashed(right, first) & left_mask;
+                right ^= hashed(left, second) & right_mask;
             }
-            place = left << self.half | right;
+            place = left << low | right;
             if place < self.count {
                 return place;
             }
         }
     }
+}
+
+/// The middle bits of a product with a key, which all lower bits take part in (multiply-shift hashing, Dietzfelbinger and others 1997): enough
+/// for one round of the network.
+fn hashed(bits: u64, key: u64) -> u64 {
+    (bits ^ key).wrapping_mul(key | 1) >> 32
 }
 
 /// Bits that depend on all bits of a number: the last steps of splitmix64.
@@ -115,9 +126,56 @@ mod tests {
         assert_eq!(unit(1 << 63), 0.5 + 2.0_f64.powi(-53));
     }
 
+    /// Ranks of axes against the order of motions, and of two axes, as of permutations drawn at random: correlations have the variance `1/(count - 1)`,
+    /// and all pairs of sixteenths are equally frequent.
+    #[test]
+    fn permutations_do_not_follow_each_other() {
+        const STREAMS: u64 = 400;
+        for count in [64, 100, 1000, 5000] {
+            let places = |stream| {
+                let permutation = Permutation::new(Philox::new(7), stream, count);
+                (0..count).map(|index| permutation.at(index)).collect::<Vec<u64>>()
+            };
+            let middle = (count - 1) as f64 / 2.0;
+            let variance = (count * count - 1) as f64 / 12.0;
+            let correlation = |x: &[u64], y: &[u64]| {
+                let terms = x.iter().zip(y).map(|(x, y)| (*x as f64 - middle) * (*y as f64 - middle));
+                terms.sum::<f64>() / (count as f64 * variance)
+            };
+            let sixteenths = |x: &[u64], y: &[u64]| {
+                let mut frequencies = [0.0; 256];
+                let part = |x: u64| (16 * x / count) as usize;
+                x.iter().zip(y).for_each(|(x, y)| frequencies[16 * part(*x) + part(*y)] += 1.0);
+                let expected = count as f64 / 256.0;
+                frequencies.iter().map(|n| (n - expected) * (n - expected) / expected).sum::<f64>()
+            };
+            let identity: Vec<u64> = (0..count).collect();
+            let (mut squares, mut spreads) = ([0.0; 2], [0.0; 2]);
+            let mut last = places(0);
+            for stream in 1..=STREAMS {
+                let own = places(stream);
+                for (k, other) in [&identity, &last].into_iter().enumerate() {
+                    squares[k] += correlation(&own, other).powi(2) * (count - 1) as f64 / STREAMS as f64;
+                    spreads[k] += sixteenths(&own, other) / STREAMS as f64;
+                }
+                last = own;
+            }
+            // Four deviations of means over so many streams.
+            let one = 4.0 * (2.0 / STREAMS as f64).sqrt();
+            let cells = 225.0 * count as f64 / (count - 1) as f64;
+            for (square, spread) in squares.into_iter().zip(spreads) {
+                assert!((square - 1.0).abs() < one, "{count}: {square}");
+                assert!(
+                    (spread / cells - 1.0).abs() < 4.0 * (2.0 / 225.0 / STREAMS as f64).sqrt(),
+                    "{count}: {spread}"
+                );
+            }
+        }
+    }
+
     #[test]
     fn permutations_take_every_place_once() {
-        for count in [1, 2, 3, 10, 16, 17, 1000] {
+        for count in [1, 2, 3, 10, 16, 17, 100, 128, 513, 1000] {
             for stream in 0..3 {
                 let permutation = Permutation::new(Philox::new(5), stream, count);
                 let mut places: Vec<u64> = (0..count).map(|index| permutation.at(index)).collect();

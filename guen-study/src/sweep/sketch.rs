@@ -14,6 +14,11 @@ struct Sizes {
 
 impl Sizes {
     fn add(&mut self, key: u32, count: u64) {
+        self.room(key, 1)[0] += count;
+    }
+
+    /// The counts of so many intervals from this one on.
+    fn room(&mut self, key: u32, length: usize) -> &mut [u64] {
         if self.counts.is_empty() {
             self.first = key;
         }
@@ -23,10 +28,22 @@ impl Sizes {
             self.first = key;
         }
         let place = (key - self.first) as usize;
-        if place >= self.counts.len() {
-            self.counts.resize(place + 1, 0);
+        if place + length > self.counts.len() {
+            self.counts.resize(place + length, 0);
         }
-        self.counts[place] += count;
+        &mut self.counts[place..place + length]
+    }
+
+    fn merge(&mut self, other: &Self) {
+        let counted = |count: &u64| *count > 0;
+        // Zeros at the ends are room that nothing was counted in.
+        if let (Some(first), Some(last)) =
+            (other.counts.iter().position(counted), other.counts.iter().rposition(counted))
+        {
+            let more = &other.counts[first..=last];
+            let own = self.room(other.first + first as u32, more.len());
+            own.iter_mut().zip(more).for_each(|(own, more)| *own += more);
+        }
     }
 
     /// The intervals with counts, from the smallest sizes on.
@@ -60,8 +77,8 @@ impl Sketch {
     }
 
     pub(super) fn merge(&mut self, other: &Self) {
-        other.negative.iter().for_each(|(key, count)| self.negative.add(key, count));
-        other.positive.iter().for_each(|(key, count)| self.positive.add(key, count));
+        self.negative.merge(&other.negative);
+        self.positive.merge(&other.positive);
     }
 
     /// The middle of the interval in which the number of this rank lies, counted from one.

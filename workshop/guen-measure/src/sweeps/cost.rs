@@ -16,8 +16,10 @@ const METHOD: Rk4 = Rk4::new(0.01);
 const STATISTICS: f64 = 1.03;
 const PARQUET: f64 = 1.10;
 
-/// The time that this thread has had a processor, in seconds: what others do on the machine does not count.
+/// The time that this thread has had a processor, in seconds: what others do on the machine does not count. The system brings it up to date
+/// every few milliseconds, and when a thread yields.
 fn processor_time() -> Result<f64, Failure> {
+    std::thread::yield_now();
     let text = std::fs::read_to_string("/proc/thread-self/schedstat")?;
     Ok(text.split(' ').next().unwrap_or_default().parse::<f64>()? / 1e9)
 }
