@@ -50,6 +50,7 @@ mechanical_system! {
         gravity = vec(0, -g);
         parameters { u = dot(x); w = dot(z); omega = dot(theta); }
         contacts { end: gap = tip.y, slip = dot(tip).x, friction = mu, restitution = 0; }
+        scene Sliding { modes { end: slip; } track theta, u; }
     }
 }
 

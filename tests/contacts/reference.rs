@@ -128,6 +128,15 @@ fn painleve_rod() {
         .unwrap_err();
     assert!(matches!(error.cause, HybridCause::Painleve { .. }), "{error}");
     assert!((error.t - event).abs() < 1e-8, "{} and {event}", error.t);
+    // Where the modes of a scene have programs of their own, too.
+    let sliding = painleve_rod::Sliding::from(PainleveRod::default()).prepare().unwrap();
+    let start = painleve_rod::State::from(state(scene.get("initial")));
+    let error: HybridError<3, 1> =
+        Hybrid::new(&sliding, 0.0, &painleve_rod::sliding::State::from(&start).into())
+            .run(&Dop853::new(1e-12, 1e-12), 2.0)
+            .unwrap_err();
+    assert!(matches!(error.cause, HybridCause::Painleve { .. }), "{error}");
+    assert!((error.t - event).abs() < 1e-8, "{} and {event}", error.t);
 }
 
 /// The wheel loses its grip where the ice begins, and finds it again behind its end.

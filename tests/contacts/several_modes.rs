@@ -172,12 +172,20 @@ fn rates_of_eliminated_modes_are_those_of_the_common_program() {
     let constants = Roller::default();
     let inputs = roller::Inputs { torque: 7.0, lift: 3.0 };
     let ground = roller::Ground::from(constants).prepare().unwrap().driven(inputs.into());
-    assert_eq!(eliminated(&ground), 1);
-    let sticks = roller::Mode { tyre: roller::Tyre::Stick };
-    let rate = guen::System::rhs(&ground.in_mode(sticks), 0.0, &[3.0, 10.0]);
+    assert_eq!(eliminated(&ground), 3);
+    let in_mode = |tyre| ground.in_mode(roller::Mode { tyre });
+    let rate = guen::System::rhs(&in_mode(roller::Tyre::Stick), 0.0, &[3.0, 10.0]);
     // (m + J/a^2) v' = torque/a - c v.
     let ahead = (7.0 / 0.3 - 0.5 * 3.0) / (20.0 + 1.0 / 0.09);
     assert_near(rate, [ahead, ahead / 0.3]);
+    // m v' = -mu N d - c v and J w' = torque + a mu N d with N = m g - lift.
+    for (tyre, direction, spin) in
+        [(roller::Tyre::SlipForward, 1.0, 8.0), (roller::Tyre::SlipBackward, -1.0, 12.0)]
+    {
+        let rate = guen::System::rhs(&in_mode(tyre), 0.0, &[3.0, spin]);
+        let friction = 0.4 * (20.0 * 9.81 - 3.0) * direction;
+        assert_near(rate, [(-friction - 0.5 * 3.0) / 20.0, 7.0 + 0.3 * friction]);
+    }
     // Of the feet of a table one alone sticks; where two do nothing moves, and the common program serves.
     let feet = Feet::default();
     let (whole, tipping) = (feet.prepare().unwrap(), feet::Tipping::from(feet).prepare().unwrap());

@@ -1,9 +1,10 @@
-//! The rates of modes in which nothing slips, by the elimination that solves smooth systems: of scenes with few modes.
+//! The rates of modes by the elimination that solves smooth systems: of scenes with few modes.
 //!
 //! The declaration of the mode is written as for a scene in one mode, and its equations are solved. The rates of the parameters that follow
-//! there are those of the expressions that they follow by.
+//! there are those of the expressions that they follow by, in the rates of the others. Friction along a line is solved for with its loads; a
+//! slip in space is left to the common program.
 
-use guen_symbolic::{Contracted, Dependence, Derivation, ExprId, Flow, Operation, Programs, SymbolId};
+use guen_symbolic::{Contracted, Dependence, Derivation, ExprId, Flow, Operation, Programs, Role, SymbolId};
 
 use super::contacts::ContactFacts;
 use super::domain::{CHART, constant_pivots, domain};
@@ -11,8 +12,8 @@ use super::level::Level;
 use super::one_mode;
 use super::programs::{extend, programs};
 use super::readable::polish;
-use super::selection::Selection;
-use super::{formulas, function};
+use super::selection::{Selection, StateIndex};
+use super::{formulas, friction, function};
 use crate::diagnostics::collect;
 use crate::model::{self, ContactState, Contacts, Model, SceneEntry, SceneModes};
 use crate::syntax::{Declaration, Name, Scene};
@@ -54,11 +55,12 @@ pub(super) fn add(model: &mut Model<'_>, system: &Level, scenes: &mut [Level]) {
     model.contacts = Some(contacts);
 }
 
-/// Whether something is closed in a mode, and nothing slips.
+/// Whether something is closed in a mode, and nothing slips in space: the direction of such a slip is none of the state where it begins.
 fn is_held(contacts: &Contacts<'_>, mode: &[usize]) -> bool {
-    use ContactState::{Closed, Locked, Stick};
+    use ContactState::{Closed, Locked, Slip, SlipMinus, SlipPlus, Stick};
     let states = || contacts.entries.iter().zip(mode).map(|(entry, state)| entry.states()[*state]);
-    states().any(|state| matches!(state, Closed | Stick | Locked)) && !states().any(ContactState::slips)
+    let holds = |state| matches!(state, Closed | Stick | Locked | SlipPlus | SlipMinus);
+    states().any(holds) && !states().any(|state| state == Slip)
 }
 
 /// The program of the rates of what a scene keeps in a mode; `None` where it needs something else, or divides by what the system does not.
@@ -77,23 +79,60 @@ fn rates(
     let declaration: Declaration = declaration.filter(|_| report.is_empty())?;
     let (own, report) = collect(|faults| model::resolve(&declaration, faults));
     let mut own = own.filter(|_| report.is_empty())?;
+    let (solved, report) = collect(|faults| friction::solve_loads(&mut own, faults));
+    // A magnitude has a kink, and the runs hold its sign.
+    solved.filter(|()| report.is_empty() && !own.loads.iter().any(|load| load.is_magnitude))?;
     let mut derivation = Derivation::new(&mut own.bench, own.mechanics.clone()).ok()?;
     derivation.restate_by_bodies(&mut own.bench);
     polish(&mut own.bench, &mut derivation);
     if !divides_by_known(model, system, &own, &derivation) {
         return None;
     }
+    let given = given(&mut own, model, &system.derivation, selection);
     let mut lists: Vec<Vec<ExprId>> = Vec::new();
     for list in formulas::rates(&derivation) {
-        lists.extend(kept(&mut own, &derivation, &list, model, selection));
+        // Rates of what follows are shorter in terms of the other rates than multiplied out, or longer.
+        let whole: Vec<ExprId> = list.iter().map(|rate| own.bench.graph.keep_sums(*rate)).collect();
+        for list in [list, whole] {
+            lists.extend(kept(&mut own, &derivation, &list, (model, selection), &given));
+        }
     }
     if lists.is_empty() {
         return None;
     }
     extend(&mut own.bench, &mut lists);
     let mut found = programs(&mut own.bench, &lists, &[]);
-    renamed(&mut found, &own, model)?;
+    renamed(&mut found, &own, model, &given)?;
     Some(found)
+}
+
+/// A coordinate whose rate is a parameter of the state that follows from others in the mode, and needs no computation.
+struct Given {
+    /// The coordinate and the parameter, by their places in the whole state.
+    coordinate: StateIndex,
+    parameter: StateIndex,
+    /// The parameter in the mode.
+    symbol: ExprId,
+}
+
+fn given(
+    own: &mut Model<'_>,
+    whole: &Model<'_>,
+    derivation: &Derivation,
+    selection: &Selection,
+) -> Vec<Given> {
+    let rates = formulas::rates(derivation).into_iter().next().unwrap_or_default();
+    let mut all = Vec::new();
+    for coordinate in &selection.coordinates {
+        let is_rate = |place: &&StateIndex| whole.variable(**place) == rates[*coordinate];
+        let Some(parameter) = selection.variables.iter().find(is_rate) else { continue };
+        let name = whole.variable_name(*parameter);
+        if own.followers.iter().any(|follower| follower.name == name) {
+            let symbol = own.bench.graph.symbol(name, Role::QuasiVelocity);
+            all.push(Given { coordinate: *coordinate, parameter: *parameter, symbol });
+        }
+    }
+    all
 }
 
 /// Whether the velocities of the mode are a chart wherever those of the system are. Its mass matrix is singular where that of the system is, or the
@@ -117,8 +156,8 @@ fn kept(
     own: &mut Model<'_>,
     derivation: &Derivation,
     list: &[ExprId],
-    whole: &Model<'_>,
-    selection: &Selection,
+    (whole, selection): (&Model<'_>, &Selection),
+    given: &[Given],
 ) -> Option<Vec<ExprId>> {
     let (_, size) = own.sizes();
     let variables: Vec<ExprId> = (0..size).map(|place| own.variable(place)).collect();
@@ -128,6 +167,10 @@ fn kept(
     let mut along = Flow::new(&own.bench.graph, moving);
     let mut rates = Vec::new();
     for place in &selection.variables {
+        if let Some(rate) = given.iter().find(|given| given.coordinate == *place) {
+            rates.push(rate.symbol);
+            continue;
+        }
         let name = whole.variable_name(*place);
         if let Some(place) = (0..size).find(|place| own.variable_name(*place) == name) {
             rates.push(list[place]);
@@ -153,17 +196,17 @@ fn kept(
 }
 
 /// Puts the symbols of the whole system in place of those of the mode, by their names; `None` where one has none.
-fn renamed(programs: &mut Programs, own: &Model<'_>, whole: &Model<'_>) -> Option<()> {
+fn renamed(programs: &mut Programs, own: &Model<'_>, whole: &Model<'_>, given: &[Given]) -> Option<()> {
     let instructions = programs.functions.iter_mut().flat_map(|function| &mut function.instructions);
     for instruction in programs.prepare.iter_mut().chain(instructions) {
         if let Operation::Symbol(symbol) = &mut instruction.operation {
-            *symbol = in_whole(*symbol, own, whole)?;
+            *symbol = in_whole(*symbol, own, whole, given)?;
         }
     }
     Some(())
 }
 
-fn in_whole(symbol: SymbolId, own: &Model<'_>, whole: &Model<'_>) -> Option<SymbolId> {
+fn in_whole(symbol: SymbolId, own: &Model<'_>, whole: &Model<'_>, given: &[Given]) -> Option<SymbolId> {
     let e = own.bench.graph.symbol_expr(symbol);
     let variable =
         |model: &Model<'_>, is: &dyn Fn(usize) -> bool| (0..model.sizes().1).find(|place| is(*place));
@@ -173,6 +216,8 @@ fn in_whole(symbol: SymbolId, own: &Model<'_>, whole: &Model<'_>) -> Option<Symb
         whole.constants[c].symbol
     } else if let Some(u) = own.inputs.iter().position(|input| input.symbol == e) {
         whole.inputs[u].symbol
+    } else if let Some(given) = given.iter().find(|given| given.symbol == e) {
+        whole.variable(given.parameter)
     } else {
         let place = variable(own, &|place| own.variable(place) == e)?;
         let name = own.variable_name(place);

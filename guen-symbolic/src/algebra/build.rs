@@ -536,6 +536,24 @@ impl Graph {
         if small || self.roles(e).is_constant() { e } else { self.intern(Node::Kept(e)) }
     }
 
+    /// The expression kept whole, as by [`keep`](Self::keep), where a sum that varies is in it: a product merges with what uses it.
+    ///
+    /// ```
+    /// use guen_symbolic::{Graph, Role};
+    /// let mut g = Graph::new();
+    /// let [k, x, y] = [("k", Role::Constant), ("x", Role::State), ("y", Role::State)].map(|(name, role)| g.symbol(name, role));
+    /// let product = g.product(&[(k, 1), (x, 1), (y, 1)]);
+    /// assert_eq!(g.keep_sums(product), product);
+    /// let sum = g.add(product, x);
+    /// assert_ne!(g.keep_sums(sum), sum);
+    /// ```
+    pub fn keep_sums(&mut self, e: ExprId) -> ExprId {
+        let varies = |id: ExprId| !self.roles(id).is_constant();
+        let sums = self.reachable(&[e], |id| !varies(id) || matches!(self.node(id), Node::Function(..)));
+        let is_sum = |id: &ExprId| matches!(self.node(*id), Node::Sum { constant, terms } if terms.len() > 1 || !constant.is_zero());
+        if sums.iter().any(is_sum) { self.keep(e) } else { e }
+    }
+
     /// The expression kept whole, as by [`keep`](Self::keep), short products as well: for what is known to be used more than once.
     pub(crate) fn keep_whole(&mut self, e: ExprId) -> ExprId {
         let is_leaf = match self.node(e) {

@@ -16,7 +16,7 @@ use crate::common::{by_two_threads, evaluated, rounds};
 pub struct Seen {
     pub states: usize,
     held: usize,
-    slides: usize,
+    pub slides: usize,
     /// Slips under reactions of constraints, and under those of other contacts.
     pressed: [usize; 2],
     pub worst: f64,

@@ -1,5 +1,6 @@
 //! Scenes of drawn declarations that run through some modes of contacts. Rows that no mode lets move are zero in all of them: there the programs
-//! of the scene are those of the whole system. Modes in which something holds and nothing slips move as the mechanism with these constraints.
+//! of the scene are those of the whole system. Modes in which something holds, and nothing slips in space, move as the mechanism with these
+//! constraints and with friction.
 
 use guen_language::derive::{Derived, Level, derive, function};
 use guen_language::diagnostics::collect;
@@ -122,12 +123,13 @@ fn contacts_of_drawn_declarations_run_through_some_modes() {
     let states = sum(|seen| seen.programs.states);
     let rests = sum(|seen| if seen.programs.states > 0 { seen.rests } else { 0 });
     let held = sum(|seen| seen.held.iter().map(|held| held.states).sum());
+    let slides = sum(|seen| seen.held.iter().map(|held| held.slides).sum());
     let worst =
         seen.iter().flat_map(|seen| seen.held.iter().map(|held| held.worst).chain([seen.programs.worst]));
     println!(
-        "{states} states of {rounds} systems, {rests} rows that rest, {held} states of modes that hold, at most {:.1e} of condition times scale",
+        "{states} states of {rounds} systems, {rests} rows that rest, {held} states of modes that hold with {slides} slips, at most {:.1e} of condition times scale",
         worst.fold(0.0, f64::max)
     );
-    assert!(states as u64 >= rounds && rests > 0 && held > 0, "{states} states");
+    assert!(states as u64 >= rounds && rests > 0 && held > 0 && slides > 0, "{states} states");
     assert_eq!(seen.len(), found.len());
 }
