@@ -62,6 +62,8 @@ fn main() -> ExitCode {
     SNAKES.iter().for_each(|&links| add(format!("snake of {links}"), &large_systems::snake(links)));
     add("tricycle".to_owned(), large_systems::TRICYCLE);
     add("ellipsoid".to_owned(), large_systems::LADEN_ELLIPSOID);
+    add("wheel on ice".to_owned(), large_systems::WHEEL_ON_ICE);
+    add("biped".to_owned(), large_systems::BIPED);
 
     let compiler = match Compiler::new() {
         Ok(compiler) => compiler,

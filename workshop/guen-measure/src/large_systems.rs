@@ -93,3 +93,72 @@ pub const LADEN_ELLIPSOID: &str = "pub system LadenEllipsoid {
     parameters { spin = angular_velocity_body(R); w = dot(swing); u = dot(slide); k = dot(depth); }
     constraints { rolling: stone.velocity_at(foot) = cross(vec(0, 0, Omega), foot); }
 }";
+
+/// A driven wheel on a road with a patch of ice: a contact with friction in four modes, a switch, and a scene in the mode that rolls.
+pub const WHEEL_ON_ICE: &str = "pub system Wheel {
+    constants { m > 0, a > 0, J > 0, c >= 0, g = 9.81, mu_road = 4/5, mu_ice = 1/10, e in 0..1 = 0 }
+    inputs { torque }
+    coordinates { x, z, phi }
+    bodies { wheel { mass: m, center: vec(x, z), inertia: diag(0, 0, J), orientation: rot_z(-phi) } }
+    gravity = vec(0, -g);
+    parameters { speed_ahead = dot(x); up = dot(z); spin = dot(phi); }
+    forces { torque along spin; -c*speed_ahead along speed_ahead; }
+    switches { ice: (x - 5)*(9 - x); }
+    let p = vec(x, z - a);
+    contacts {
+        tyre: gap = z - a, slip = wheel.velocity_at(p).x, friction = mu_road + (mu_ice - mu_road)*ice, restitution = e;
+    }
+    scene Rolling { modes { tyre: stick; } track speed_ahead; }
+}";
+
+/// A planar biped of seven bodies on heels and toes with friction, with stops in its knees and ankles: eight contacts, of whose combinations
+/// twelve modes are left.
+pub const BIPED: &str = "pub system Biped {
+    constants {
+        mt > 0 = 30, mh > 0 = 8, ms > 0 = 4, mf > 0 = 1, Jt > 0 = 2, Jh > 0 = 3/20, Js > 0 = 1/20, Jf > 0 = 1/200,
+        lt > 0 = 3/10, lh > 0 = 2/5, ls > 0 = 2/5, lf > 0 = 1/5, mu >= 0 = 4/5, g = 9.81
+    }
+    inputs { hip[2], knee[2], ankle[2] }
+    coordinates { x, z, trunk, thigh[2], shank[2], foot[2] }
+    count n = 2;
+    let H = vec(x, z);
+    for i in 0..n {
+        let K[i] = H + lh*vec(sin(thigh[i]), -cos(thigh[i]));
+        let A[i] = K[i] + ls*vec(sin(shank[i]), -cos(shank[i]));
+        let heel_at[i] = A[i] - lf/4*vec(cos(foot[i]), sin(foot[i]));
+        let toe_at[i] = A[i] + 3*lf/4*vec(cos(foot[i]), sin(foot[i]));
+    }
+    bodies {
+        torso { mass: mt, center: H + lt*vec(-sin(trunk), cos(trunk)), inertia: diag(0, 0, Jt), orientation: rot_z(trunk) }
+        for i in 0..n {
+            upper[i] { mass: mh, center: (H + K[i])/2, inertia: diag(0, 0, Jh), orientation: rot_z(thigh[i]) }
+            lower[i] { mass: ms, center: (K[i] + A[i])/2, inertia: diag(0, 0, Js), orientation: rot_z(shank[i]) }
+            sole[i] { mass: mf, center: (heel_at[i] + toe_at[i])/2, inertia: diag(0, 0, Jf), orientation: rot_z(foot[i]) }
+        }
+    }
+    gravity = vec(0, -g);
+    forces {
+        for i in 0..n {
+            hip[i] along dot(thigh[i]) - dot(trunk);
+            knee[i] along dot(shank[i]) - dot(thigh[i]);
+            ankle[i] along dot(foot[i]) - dot(shank[i]);
+        }
+    }
+    contacts {
+        for i in 0..n {
+            heel[i]: gap = heel_at[i].y, slip = dot(heel_at[i]).x, friction = mu;
+            toe[i]: gap = toe_at[i].y, slip = dot(toe_at[i]).x, friction = mu;
+            kneecap[i]: gap = thigh[i] - shank[i];
+            heel_cord[i]: gap = foot[i] - shank[i] + 1;
+        }
+    }
+    modes {
+        heel[0]: open, stick; toe[0]: open, stick; heel[1]: open, stick; toe[1]: open, stick;
+        kneecap[0]: open, closed; kneecap[1]: open; heel_cord[0]: open; heel_cord[1]: open;
+        never heel[0].stick with heel[1].stick;
+        never toe[0].stick with toe[1].stick;
+        never heel[1].stick with toe[0].stick;
+        never heel[0].stick with toe[1].stick;
+        never toe[1].stick with kneecap[0].closed;
+    }
+}";
