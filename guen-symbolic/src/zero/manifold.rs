@@ -56,7 +56,8 @@ const OCCURS: u8 = 1;
 const INSIDE: u8 = 2;
 
 impl Manifold {
-    pub(super) fn new(graph: &mut Graph, equations: &[ExprId]) -> Self {
+    /// The manifold of some equations, whose expressions enter the table.
+    pub(super) fn new(graph: &mut Graph, table: &mut Table, equations: &[ExprId]) -> Self {
         let mut equations: Vec<_> = equations.iter().map(|e| without_constant_factors(graph, *e)).collect();
         equations.sort_unstable();
         equations.dedup();
@@ -76,8 +77,15 @@ impl Manifold {
                 }
             }
         }
-        let blocks = triangular(graph, &equations, occurring);
-        Manifold { blocks, equations, variables, jacobian, occurrence: Vec::new() }
+        table.scan(graph);
+        let blocks = triangular((graph, table), &equations, occurring);
+        let mut manifold = Manifold { blocks, equations, variables, jacobian, occurrence: Vec::new() };
+        // An order by which no draw gives a point, as where a length that is promised to be positive would have to vanish, is none: every
+        // question would search for a point again.
+        if manifold.sample(graph, table, 0).is_none() {
+            manifold.blocks = None;
+        }
+        manifold
     }
 
     /// Whether points modulo the prime can be found.
@@ -302,13 +310,18 @@ impl Block {
                 fixed.extend(self.free.iter().map(|s| (*s, other.symbol(graph, *s))));
             }
             for solution in self.solutions(graph, table, seed, fixed) {
-                let allowed = self.symbols.iter().zip(&solution).all(|(symbol, value)| {
-                    match graph.symbol_info(*symbol).bound {
-                        Bound::Free => true,
-                        Bound::NonZero => *value != 0,
-                        Bound::Positive | Bound::NonNegative => field::is_residue(*value),
-                        Bound::Negative | Bound::NonPositive => field::is_residue(neg(*value)),
-                    }
+                let bounded = || {
+                    let bounds = self.symbols.iter().map(|symbol| graph.symbol_info(*symbol).bound);
+                    bounds.zip(&solution).filter(|(bound, _)| *bound != Bound::Free)
+                };
+                // Zero is no chance of this draw: the equations make it.
+                if bounded().any(|(_, value)| *value == 0) {
+                    return None;
+                }
+                let allowed = bounded().all(|(bound, value)| match bound {
+                    Bound::Free | Bound::NonZero => true,
+                    Bound::Positive | Bound::NonNegative => field::is_residue(*value),
+                    Bound::Negative | Bound::NonPositive => field::is_residue(neg(*value)),
                 });
                 if allowed {
                     fixed.extend(self.symbols.iter().copied().zip(solution));
@@ -326,15 +339,35 @@ impl Block {
         seed: u64,
         fixed: &FastMap<SymbolId, u64>,
     ) -> Vec<Vec<u64>> {
-        let at = |equations: &[ExprId], values: &[u64]| -> Option<Vec<u64>> {
-            let mut sample = Sample::new(seed);
-            sample.fixed = fixed.clone();
-            sample.fixed.extend(self.symbols.iter().copied().zip(values.iter().copied()));
-            equations.iter().map(|e| sample.value(graph, table, *e)).collect()
-        };
+        let at =
+            |equations: &[ExprId], values: &[u64]| self.at(graph, table, (seed, fixed), equations, values);
         self.line(&at)
             .and_then(|(start, direction)| self.on_line(&at, start, direction, seed))
             .unwrap_or_default()
+    }
+
+    /// Whether the linear equations determine the symbols up to one direction for a quadratic one: at one of two points.
+    fn is_regular(&self, graph: &Graph, table: &Table) -> bool {
+        let nothing = FastMap::default();
+        (0..2).any(|seed| {
+            self.line(&|equations, values| self.at(graph, table, (seed, &nothing), equations, values))
+                .is_some()
+        })
+    }
+
+    /// The residues of equations where the block's symbols have these values, and others those that are fixed or drawn.
+    fn at(
+        &self,
+        graph: &Graph,
+        table: &Table,
+        (seed, fixed): (u64, &FastMap<SymbolId, u64>),
+        equations: &[ExprId],
+        values: &[u64],
+    ) -> Option<Vec<u64>> {
+        let mut sample = Sample::new(seed);
+        sample.fixed = fixed.clone();
+        sample.fixed.extend(self.symbols.iter().copied().zip(values.iter().copied()));
+        equations.iter().map(|e| sample.value(graph, table, *e)).collect()
     }
 
     /// The solutions of the linear equations: a start, and a direction if one is left.
@@ -412,7 +445,11 @@ fn degree(graph: &Graph, e: ExprId, symbols: &[SymbolId]) -> Option<u32> {
 }
 
 /// An order in which the equations can be solved, found from its end: what is solved last disturbs nothing.
-fn triangular(graph: &Graph, equations: &[ExprId], occurring: Vec<Vec<SymbolId>>) -> Option<Vec<Block>> {
+fn triangular(
+    (graph, table): (&Graph, &Table),
+    equations: &[ExprId],
+    occurring: Vec<Vec<SymbolId>>,
+) -> Option<Vec<Block>> {
     let polynomial = occurring.iter().zip(equations).map(|(symbols, e)| {
         let is_polynomial = |symbol: &SymbolId| degree(graph, *e, &[*symbol]).is_some();
         symbols.iter().copied().filter(is_polynomial).collect()
@@ -426,7 +463,7 @@ fn triangular(graph: &Graph, equations: &[ExprId], occurring: Vec<Vec<SymbolId>>
             [false, true].into_iter().find_map(|quadratic| {
                 subsets(&remaining, size).into_iter().find_map(|chosen| {
                     let block = last_block(
-                        graph,
+                        (graph, table),
                         equations,
                         [&occurring, &polynomial],
                         &remaining,
@@ -453,7 +490,7 @@ fn triangular(graph: &Graph, equations: &[ExprId], occurring: Vec<Vec<SymbolId>>
 /// The chosen equations as a block whose symbols occur in no other remaining equation; given which symbols occur in each, and in which
 /// it is a polynomial of at most second degree.
 fn last_block(
-    graph: &Graph,
+    (graph, table): (&Graph, &Table),
     equations: &[ExprId],
     [occurring, polynomial]: [&[Vec<SymbolId>]; 2],
     remaining: &[usize],
@@ -479,7 +516,7 @@ fn last_block(
                 _ => return None,
             }
         }
-        Some(block)
+        block.is_regular(graph, table).then_some(block)
     })
 }
 

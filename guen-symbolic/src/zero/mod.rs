@@ -124,7 +124,7 @@ impl ZeroTest {
     pub fn set_manifold(&mut self, g: &mut Graph, equations: &[ExprId]) {
         self.bound = Domain::default();
         let equations: Vec<_> = equations.iter().copied().filter(|e| !g.is_zero(*e)).collect();
-        self.manifold = (!equations.is_empty()).then(|| Manifold::new(g, &equations));
+        self.manifold = (!equations.is_empty()).then(|| Manifold::new(g, &mut self.table, &equations));
     }
 
     /// Whether the manifold's points can be found, so that verdicts on it are possible.

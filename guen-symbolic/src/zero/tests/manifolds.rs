@@ -118,6 +118,39 @@ fn unsolvable_manifolds_stay_open() {
     assert_eq!(b.test.residues(&mut b.g, 0, &[sx], true), None);
 }
 
+/// A foot flat on the ground: heel and toe are at its height only where `sin(foot)` vanishes, which residues of angles do not, or where the
+/// foot has no length, which its bound excludes. The search for points modulo the prime ends at once.
+#[test]
+fn a_manifold_without_residues_is_not_solved() {
+    let mut b = Bench::new();
+    let (z, leg, foot) = (b.q("z"), b.q("leg"), b.q("foot"));
+    let (l, f) = (b.positive("l"), b.positive("f"));
+    let (c, s) = (b.g.cos(leg), b.g.sin(foot));
+    let (down, up) = (b.g.mul(l, c), b.g.mul(f, s));
+    let ankle = b.g.sub(z, down);
+    let toe = b.g.add(ankle, up);
+    b.test.set_manifold(&mut b.g, &[ankle, toe]);
+    assert!(!b.test.manifold_is_solved());
+    assert_eq!(b.test.verdict_on_manifold(&mut b.g, s), Unknown);
+}
+
+/// The first symbols that occur linearly, `x` and `y`, are not determined by both equations; others are.
+#[test]
+fn symbols_are_those_that_the_equations_determine() {
+    let mut b = Bench::new();
+    let [x, y, z, angle] = ["x", "y", "z", "angle"].map(|name| b.q(name));
+    let sine = b.g.sin(angle);
+    let sum = b.g.add(x, y);
+    let first = b.g.sub(sum, sine);
+    let product = b.g.mul(z, sine);
+    let second = b.g.add(first, product);
+    b.test.set_manifold(&mut b.g, &[first, second]);
+    assert!(b.test.manifold_is_solved());
+    assert_eq!(b.on_manifold(sum, sine), Zero);
+    assert_eq!(b.test.verdict_on_manifold(&mut b.g, z), Zero);
+    assert_eq!(b.test.verdict_on_manifold(&mut b.g, x), Nonzero);
+}
+
 /// The closing equations of Bricard's mechanism: six bars of these lengths, six hinges at right angles, the last bar in place.
 fn bricard(b: &mut Bench, lengths: &[ExprId; 6]) -> (Vec<ExprId>, Vec<ExprId>) {
     let angles: Vec<ExprId> = (1..=5).map(|i| b.q(&format!("q{i}"))).collect();
