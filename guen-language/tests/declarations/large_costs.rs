@@ -28,6 +28,8 @@ fn costs_of_large_systems_are_those_of_the_file() {
         ("held7", robots::held()),
         ("joints40", declaration("Chain", 40, Angles::Relative)),
         ("joints40-0", declaration("Chain", 40, Angles::Relative).replace(" > 0", "")),
+        ("crane4", robots::crane(4)),
+        ("crane12", robots::crane(12)),
         ("bars10", bars::in_angles(10)),
         ("bars10-xy", bars::in_points(10)),
         ("bars40", bars::in_angles(40)),

@@ -1,13 +1,13 @@
 //! Many loops in a row, and long chains: the work of a derivation and the operations of its program grow with their number and not with
 //! a power of it.
 
-use crate::common::{derived, evaluated};
+use crate::common::{derived, derived_without, evaluated};
 use guen_language::derive::{Derived, function};
 use guen_symbolic::SymbolId;
 use nalgebra::{DMatrix, DVector};
 
-use crate::families::bars;
 use crate::families::chains::{self, Angles};
+use crate::families::{bars, robots};
 
 const G: f64 = 9.81;
 
@@ -244,4 +244,30 @@ fn a_long_chain_of_relative_angles_is_that_of_absolute_ones() {
     let [absolute, relative] = found;
     let summed: Vec<f64> = (1..=links).map(|i| relative[..i].iter().sum()).collect();
     assert_close(&summed, &absolute);
+}
+
+/// A load on a cable: the body at the end of a chain has three rates and six forms, its spins and the speed of its centre relative to the hook.
+/// Its rates by the reactions between the forms are those of the mass matrix.
+#[test]
+fn a_load_on_a_cable_moves_as_by_its_mass_matrix() {
+    let text = robots::crane(3);
+    let rates_of = |derived: &Derived<'_>| -> Vec<Vec<f64>> {
+        (0..5).map(|k| rates(derived, &|name| 0.2 + draw(&format!("{name}{k}")).abs())).collect()
+    };
+    let found = derived(&text, |derived| {
+        assert!(derived.system.derivation.is_by("constraint forces"));
+        rates_of(derived)
+    });
+    let expected = derived_without(&text, |name| name == "constraint forces", rates_of);
+    for (found, expected) in found.iter().zip(&expected) {
+        assert_close(found, expected);
+    }
+}
+
+#[test]
+fn a_crane_grows_with_its_cable() {
+    let [short, middle, long] = [4, 8, 12].map(|n| {
+        derived(&robots::crane(n), |derived| derived.system.program(function::RHS).unwrap().cost.operations())
+    });
+    assert!(long - middle < 2 * (middle - short) && long < 1600, "{short} {middle} {long}");
 }

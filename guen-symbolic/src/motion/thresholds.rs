@@ -67,7 +67,7 @@ pub(in crate::motion) const MOST_FORMS: usize = 4;
 pub(in crate::motion) const DENSE_COST: usize = 12;
 
 /// The number of parameters of a block above which it is not balanced.
-pub(in crate::motion) const BALANCED_PARAMETERS: usize = 2;
+pub(in crate::motion) const BALANCED_PARAMETERS: usize = 3;
 
 /// The size up to which components in a body's axes are written out; others are computed once, and their squares are not multiplied out.
 pub(in crate::motion) const COMPONENT_TERMS: usize = 5;

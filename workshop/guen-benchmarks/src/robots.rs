@@ -103,6 +103,38 @@ pub fn pinned_rods(count: usize) -> String {
     )
 }
 
+/// A crane: a tower that slews, a boom that luffs, a cable of so many segments in space and a load on a hook beside its centre.
+pub fn crane(segments: usize) -> String {
+    format!(
+        "pub system Crane {{
+            count n = {segments};
+            constants {{
+                J > 0, mb > 0, Jb > 0, L > 0, m > 0, l > 0, P > 0, A > 0, B > 0, C > 0, h > 0, c >= 0, g = 9.81
+            }}
+            inputs {{ slew, luff }}
+            coordinates {{ yaw, pitch, a[n], b[n], turn, roll, tilt }}
+            let R = rot_z(yaw);
+            let S = R*rot_y(-pitch);
+            let tip = L*S.x;
+            let p[0] = tip + l*vec(sin(a[0])*cos(b[0]), sin(b[0]), -cos(a[0])*cos(b[0]));
+            for i in 1..n {{ let p[i] = p[i-1] + l*vec(sin(a[i])*cos(b[i]), sin(b[i]), -cos(a[i])*cos(b[i])); }}
+            let Q = rot_z(turn)*rot_x(roll)*rot_y(tilt);
+            bodies {{
+                tower {{ mass: 0, center: vec(0, 0, 0), inertia: diag(J, J, J), orientation: R }}
+                boom {{ mass: mb, center: tip/2, inertia: diag(0, Jb, Jb), orientation: S }}
+                load {{ mass: P, center: p[n-1] - h*Q.z, inertia: diag(A, B, C), orientation: Q }}
+            }}
+            particles {{ for i in 0..n {{ m at p[i]; }} }}
+            gravity = vec(0, 0, -g);
+            forces {{
+                slew along dot(yaw);
+                luff along dot(pitch);
+                for i in 0..n {{ -c*dot(a[i]) along dot(a[i]); }}
+            }}
+        }}"
+    )
+}
+
 /// A declaration with a quaternion for the angles of the first body.
 pub fn on_quaternion(declaration: &str) -> String {
     let [orientation, angles] = ["rot_z(yaw)*rot_y(pitch)*rot_x(roll)", "yaw, pitch, roll"];

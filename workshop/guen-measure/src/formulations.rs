@@ -64,6 +64,8 @@ impl Systems {
             ("bars10", bars::in_angles(10)),
             ("bars10-xy", bars::in_points(10)),
             ("held7", robots::held()),
+            ("crane4", robots::crane(4)),
+            ("crane12", robots::crane(12)),
         ];
         systems.0.extend(others.map(|(name, text)| (name.to_owned(), text)));
         systems

@@ -142,12 +142,11 @@ impl Balancing<'_> {
                 Some(())
             }
             ([s], _) => self.along(bench, &kept, *s),
-            ([_, _], [_, _]) => self.square(bench, [kept[0], kept[1]], [unknown[0], unknown[1]]),
             ([_, _], [_, _, _]) => {
                 self.across(bench, [kept[0], kept[1], kept[2]], [unknown[0], unknown[1]]);
                 Some(())
             }
-            _ => None,
+            _ => self.by_pivots(bench, &kept, unknown),
         }
     }
 
@@ -224,22 +223,36 @@ impl Balancing<'_> {
         None
     }
 
-    /// Two parameters and two differences: the inverse, and no reaction.
-    fn square(&mut self, bench: &mut Workbench, members: [usize; 2], unknown: [usize; 2]) -> Option<()> {
-        let [[a, b], [c, d]] = members.map(|k| unknown.map(|s| self.entry(bench, k, s)));
-        let (main, other) = (bench.graph.mul(a, d), bench.graph.mul(b, c));
-        let determinant = bench.graph.sub(main, other);
-        let determinant = bench.tidy(determinant);
-        self.divisors.push(determinant);
-        let (b, c) = (bench.graph.neg(b), bench.graph.neg(c));
-        for (s, row) in unknown.into_iter().zip([[d, b], [c, a]]) {
-            let mut y = Vector::default();
-            for (k, e) in members.into_iter().zip(row) {
-                let quotient = bench.graph.div(e, determinant);
-                let quotient = bench.tidy(quotient);
-                y.add(bench, k, quotient);
+    /// As many differences as parameters, which the others follow from: rows `B = (1, C)^T S` with `C` defined everywhere, so that the
+    /// determinant of `S` vanishes only where the block loses rank. So is a body that turns in space: its spins, and with them the speed of
+    /// its centre relative to the point that it hangs on.
+    fn by_pivots(&mut self, bench: &mut Workbench, members: &[usize], unknown: &[usize]) -> Option<()> {
+        let rows: Vec<Vec<ExprId>> =
+            members.iter().map(|k| unknown.iter().map(|s| self.entry(bench, *k, *s)).collect()).collect();
+        let (chosen, Inverse { rows: inverse, determinant }, followers) =
+            subsets(members.len(), unknown.len()).into_iter().find_map(|chosen| {
+                let square: Vec<&[ExprId]> = chosen.iter().map(|place| &rows[*place][..]).collect();
+                let inverse = Inverse::of(bench, &square)?;
+                let others = (0..members.len()).filter(|place| !chosen.contains(place));
+                let followers: Option<Vec<(usize, Vec<ExprId>)>> =
+                    others.map(|place| Some((place, inverse.multiples(bench, &rows[place])?))).collect();
+                Some((chosen, inverse, followers?))
+            })?;
+        for (place, multiples) in followers {
+            let mut y = Vector::unit(members[place], bench.graph.one());
+            for (pivot, multiple) in chosen.iter().zip(multiples) {
+                let negative = bench.graph.neg(multiple);
+                y.add(bench, members[*pivot], negative);
             }
-            self.inverse[s] = self.extended(bench, y);
+            self.push_null(bench, y);
+        }
+        self.divisors.push(determinant);
+        for (s, row) in unknown.iter().zip(inverse) {
+            let mut y = Vector::default();
+            for (pivot, e) in chosen.iter().zip(row) {
+                y.add(bench, members[*pivot], e);
+            }
+            self.inverse[*s] = self.extended(bench, y);
         }
         Some(())
     }
@@ -325,6 +338,74 @@ impl Balancing<'_> {
     fn push_null(&mut self, bench: &mut Workbench, y: Vector) {
         let whole = self.extended(bench, y);
         self.null.push(whole);
+    }
+}
+
+/// The inverse of a small matrix.
+struct Inverse {
+    rows: Vec<Vec<ExprId>>,
+    determinant: ExprId,
+}
+
+impl Inverse {
+    /// `None` of a singular matrix.
+    fn of(bench: &mut Workbench, matrix: &[&[ExprId]]) -> Option<Self> {
+        let all: Vec<usize> = (0..matrix.len()).collect();
+        let determinant = determinant(bench, matrix, (&all, &all));
+        let determinant = bench.tidy(determinant);
+        if bench.vanishes(determinant) {
+            return None;
+        }
+        let without = |place: usize| all.iter().copied().filter(|i| *i != place).collect::<Vec<_>>();
+        let entry = |bench: &mut Workbench, s: usize, i: usize| {
+            let minor = self::determinant(bench, matrix, (&without(i), &without(s)));
+            let quotient = bench.graph.div(minor, determinant);
+            let quotient = if (s + i) % 2 == 0 { quotient } else { bench.graph.neg(quotient) };
+            bench.tidy(quotient)
+        };
+        let rows = all.iter().map(|s| all.iter().map(|i| entry(bench, *s, *i)).collect::<Vec<_>>()).collect();
+        Some(Self { rows, determinant })
+    }
+
+    /// The multiples of the matrix's rows that another row is the sum of; `None` where one is divided by what may vanish.
+    fn multiples(&self, bench: &mut Workbench, row: &[ExprId]) -> Option<Vec<ExprId>> {
+        (0..row.len())
+            .map(|i| {
+                let column: Vec<ExprId> = self.rows.iter().map(|row| row[i]).collect();
+                let multiple = bench.dot(row, &column);
+                let multiple = bench.tidy(multiple);
+                divides_safely(bench, multiple).then_some(multiple)
+            })
+            .collect()
+    }
+}
+
+/// The determinant of some rows and columns, by the first row.
+fn determinant(bench: &mut Workbench, matrix: &[&[ExprId]], (rows, columns): (&[usize], &[usize])) -> ExprId {
+    let [first, others @ ..] = rows else { return bench.graph.one() };
+    let terms: Vec<ExprId> = (0..columns.len())
+        .map(|place| {
+            let without: Vec<usize> = [&columns[..place], &columns[place + 1..]].concat();
+            let minor = determinant(bench, matrix, (others, &without));
+            let term = bench.graph.mul(matrix[*first][columns[place]], minor);
+            if place % 2 == 0 { term } else { bench.graph.neg(term) }
+        })
+        .collect();
+    bench.graph.sum(terms)
+}
+
+/// The subsets of so many of the first numbers, in lexicographic order.
+fn subsets(count: usize, size: usize) -> Vec<Vec<usize>> {
+    match (count, size) {
+        (_, 0) => vec![Vec::new()],
+        (0, _) => Vec::new(),
+        _ => {
+            let mut found = subsets(count - 1, size);
+            let mut with_last = subsets(count - 1, size - 1);
+            with_last.iter_mut().for_each(|subset| subset.push(count - 1));
+            found.append(&mut with_last);
+            found
+        }
     }
 }
 
