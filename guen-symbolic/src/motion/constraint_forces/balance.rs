@@ -360,7 +360,7 @@ impl Inverse {
         let entry = |bench: &mut Workbench, s: usize, i: usize| {
             let minor = self::determinant(bench, matrix, (&without(i), &without(s)));
             let quotient = bench.graph.div(minor, determinant);
-            let quotient = if (s + i) % 2 == 0 { quotient } else { bench.graph.neg(quotient) };
+            let quotient = if (s + i).is_multiple_of(2) { quotient } else { bench.graph.neg(quotient) };
             bench.tidy(quotient)
         };
         let rows = all.iter().map(|s| all.iter().map(|i| entry(bench, *s, *i)).collect::<Vec<_>>()).collect();
@@ -388,7 +388,7 @@ fn determinant(bench: &mut Workbench, matrix: &[&[ExprId]], (rows, columns): (&[
             let without: Vec<usize> = [&columns[..place], &columns[place + 1..]].concat();
             let minor = determinant(bench, matrix, (others, &without));
             let term = bench.graph.mul(matrix[*first][columns[place]], minor);
-            if place % 2 == 0 { term } else { bench.graph.neg(term) }
+            if place.is_multiple_of(2) { term } else { bench.graph.neg(term) }
         })
         .collect();
     bench.graph.sum(terms)
