@@ -277,3 +277,26 @@ fn an_equation_that_holds_nowhere_is_refused_and_none_that_may_hold() {
         assert!(!is_refused(equation), "{equation}");
     }
 }
+
+/// Heel and toe of a foot that stands flat, with and without promises of signs: both equations count. Of a foot without length one would do,
+/// and no point of such a foot decides.
+#[test]
+fn heel_and_toe_are_two_equations() {
+    for bound in ["> 0", ""] {
+        let text = format!(
+            "pub system Foot {{
+                constants {{ m > 0, l {bound}, f {bound}, g = 9.81 }}
+                coordinates {{ x, z, leg, foot }}
+                let ankle = vec(x, z) + l*vec(sin(leg), -cos(leg));
+                let toe = ankle + f*vec(cos(foot), sin(foot));
+                particles {{ m at vec(x, z); m at ankle; m at toe; }}
+                gravity = vec(0, -g);
+                holonomic {{ heel_on: ankle.y = 0; toe_on: toe.y = 0; }}
+            }}"
+        );
+        derived(&text, |derived| {
+            assert!(derived.model.redundant.is_empty(), "{bound}");
+            assert_eq!(derived.system.derivation.system.forms.degrees, 2);
+        });
+    }
+}

@@ -310,19 +310,19 @@ impl Block {
                 fixed.extend(self.free.iter().map(|s| (*s, other.symbol(graph, *s))));
             }
             for solution in self.solutions(graph, table, seed, fixed) {
-                let bounded = || {
-                    let bounds = self.symbols.iter().map(|symbol| graph.symbol_info(*symbol).bound);
-                    bounds.zip(&solution).filter(|(bound, _)| *bound != Bound::Free)
-                };
-                // Zero is no chance of this draw: the equations make it.
-                if bounded().any(|(_, value)| *value == 0) {
+                let info = |symbol: &SymbolId| graph.symbol_info(*symbol);
+                // A constant that the equations make zero is on a branch of the manifold that only such constants have.
+                let is_lost =
+                    |(symbol, value): (&SymbolId, &u64)| *value == 0 && info(symbol).role == Role::Constant;
+                if self.symbols.iter().zip(&solution).any(is_lost) {
                     return None;
                 }
-                let allowed = bounded().all(|(bound, value)| match bound {
-                    Bound::Free | Bound::NonZero => true,
-                    Bound::Positive | Bound::NonNegative => field::is_residue(*value),
-                    Bound::Negative | Bound::NonPositive => field::is_residue(neg(*value)),
-                });
+                let allowed =
+                    self.symbols.iter().zip(&solution).all(|(symbol, value)| match info(symbol).bound {
+                        Bound::Free | Bound::NonZero => true,
+                        Bound::Positive | Bound::NonNegative => field::is_residue(*value),
+                        Bound::Negative | Bound::NonPositive => field::is_residue(neg(*value)),
+                    });
                 if allowed {
                     fixed.extend(self.symbols.iter().copied().zip(solution));
                     return Some(());

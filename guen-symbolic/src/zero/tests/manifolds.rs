@@ -119,19 +119,24 @@ fn unsolvable_manifolds_stay_open() {
 }
 
 /// A foot flat on the ground: heel and toe are at its height only where `sin(foot)` vanishes, which residues of angles do not, or where the
-/// foot has no length, which its bound excludes. The search for points modulo the prime ends at once.
+/// foot has no length, which no constant is made to have. The search for points modulo the prime ends at once.
 #[test]
 fn a_manifold_without_residues_is_not_solved() {
     let mut b = Bench::new();
     let (z, leg, foot) = (b.q("z"), b.q("leg"), b.q("foot"));
-    let (l, f) = (b.positive("l"), b.positive("f"));
     let (c, s) = (b.g.cos(leg), b.g.sin(foot));
-    let (down, up) = (b.g.mul(l, c), b.g.mul(f, s));
-    let ankle = b.g.sub(z, down);
-    let toe = b.g.add(ankle, up);
-    b.test.set_manifold(&mut b.g, &[ankle, toe]);
-    assert!(!b.test.manifold_is_solved());
-    assert_eq!(b.test.verdict_on_manifold(&mut b.g, s), Unknown);
+    let lengths =
+        [[b.positive("l"), b.positive("f")], ["k", "h"].map(|name| b.g.symbol(name, Role::Constant))];
+    for [l, f] in lengths {
+        let (down, up) = (b.g.mul(l, c), b.g.mul(f, s));
+        let ankle = b.g.sub(z, down);
+        let toe = b.g.add(ankle, up);
+        b.test.set_manifold(&mut b.g, &[ankle, toe]);
+        assert!(!b.test.manifold_is_solved());
+        for e in [s, f] {
+            assert_ne!(b.test.verdict_on_manifold(&mut b.g, e), Zero);
+        }
+    }
 }
 
 /// The first symbols that occur linearly, `x` and `y`, are not determined by both equations; others are.
