@@ -11,7 +11,8 @@ use std::collections::BTreeSet;
 
 use crate::algebra::{ExprId, Node};
 use crate::motion::sparse::{Columns, Vector};
-use crate::motion::thresholds::BALANCED_PARAMETERS;
+use crate::motion::thresholds::{BALANCED_CHOICES, BALANCED_COST, BALANCED_PARAMETERS};
+use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
 pub(super) struct Balance {
@@ -229,15 +230,20 @@ impl Balancing<'_> {
     fn by_pivots(&mut self, bench: &mut Workbench, members: &[usize], unknown: &[usize]) -> Option<()> {
         let rows: Vec<Vec<ExprId>> =
             members.iter().map(|k| unknown.iter().map(|s| self.entry(bench, *k, *s)).collect()).collect();
-        let (chosen, Inverse { rows: inverse, determinant }, followers) =
-            subsets(members.len(), unknown.len()).into_iter().find_map(|chosen| {
-                let square: Vec<&[ExprId]> = chosen.iter().map(|place| &rows[*place][..]).collect();
-                let inverse = Inverse::of(bench, &square)?;
-                let others = (0..members.len()).filter(|place| !chosen.contains(place));
-                let followers: Option<Vec<(usize, Vec<ExprId>)>> =
-                    others.map(|place| Some((place, inverse.multiples(bench, &rows[place])?))).collect();
-                Some((chosen, inverse, followers?))
-            })?;
+        let is_long =
+            members.len() > unknown.len() && weighted_cost(&bench.graph, &rows.concat()) > BALANCED_COST;
+        if is_long {
+            return None;
+        }
+        let mut choices = subsets(members.len(), unknown.len()).into_iter().take(BALANCED_CHOICES);
+        let (chosen, Inverse { rows: inverse, determinant }, followers) = choices.find_map(|chosen| {
+            let square: Vec<&[ExprId]> = chosen.iter().map(|place| &rows[*place][..]).collect();
+            let inverse = Inverse::of(bench, &square)?;
+            let others = (0..members.len()).filter(|place| !chosen.contains(place));
+            let followers: Option<Vec<(usize, Vec<ExprId>)>> =
+                others.map(|place| Some((place, inverse.multiples(bench, &rows[place])?))).collect();
+            Some((chosen, inverse, followers?))
+        })?;
         for (place, multiples) in followers {
             let mut y = Vector::unit(members[place], bench.graph.one());
             for (pivot, multiple) in chosen.iter().zip(multiples) {
