@@ -224,9 +224,11 @@ impl Balancing<'_> {
         None
     }
 
-    /// As many differences as parameters, which the others follow from: rows `B = (1, C)^T S` with `C` defined everywhere, so that the
-    /// determinant of `S` vanishes only where the block loses rank. So is a body that turns in space: its spins, and with them the speed of
-    /// its centre relative to the point that it hangs on.
+    /// Balances a block by as many differences as it has parameters, with the rows `S`; the other rows are multiples of these, `C S`. `C` has
+    /// no poles, so that the determinant of `S` vanishes only where the block loses rank.
+    ///
+    /// A body that turns in space is such a block: `S` are the rows of its spins, and `C S` those of the velocity of its centre relative to the
+    /// point that it hangs on.
     fn by_pivots(&mut self, bench: &mut Workbench, members: &[usize], unknown: &[usize]) -> Option<()> {
         let rows: Vec<Vec<ExprId>> =
             members.iter().map(|k| unknown.iter().map(|s| self.entry(bench, *k, *s)).collect()).collect();
