@@ -144,12 +144,14 @@ fn a_manifold_without_residues_is_not_solved() {
 fn symbols_are_those_that_the_equations_determine() {
     let mut b = Bench::new();
     let [x, y, z, angle] = ["x", "y", "z", "angle"].map(|name| b.q(name));
-    let sine = b.g.sin(angle);
+    let (sine, cosine) = b.g.sin_cos(angle);
     let sum = b.g.add(x, y);
-    let first = b.g.sub(sum, sine);
-    let product = b.g.mul(z, sine);
-    let second = b.g.add(first, product);
-    b.test.set_manifold(&mut b.g, &[first, second]);
+    let rest = b.g.sub(sum, sine);
+    let equations = [cosine, sine].map(|factor| {
+        let product = b.g.mul(z, factor);
+        b.g.add(rest, product)
+    });
+    b.test.set_manifold(&mut b.g, &equations);
     assert!(b.test.manifold_is_solved());
     assert_eq!(b.on_manifold(sum, sine), Zero);
     assert_eq!(b.test.verdict_on_manifold(&mut b.g, z), Zero);
