@@ -31,11 +31,12 @@ mod large_systems;
 mod scenes;
 
 /// The files whose first declarations are expanded.
-const FILES: [(&str, &str); 4] = [
+const FILES: [(&str, &str); 5] = [
     ("hoop", include_str!("../../../examples/hoop.rs")),
     ("appell", include_str!("../../../examples/appell.rs")),
     ("chaplygin_sled", include_str!("../../../examples/chaplygin_sled.rs")),
     ("bicycle", include_str!("../../../tests/spatial/bicycle.rs")),
+    ("wheel on ice", include_str!("../../../examples/spinning_wheel.rs")),
 ];
 const CHAINS: [usize; 4] = [2, 5, 10, 20];
 const SNAKES: [usize; 3] = [5, 7, 10];
@@ -62,7 +63,6 @@ fn main() -> ExitCode {
     SNAKES.iter().for_each(|&links| add(format!("snake of {links}"), &large_systems::snake(links)));
     add("tricycle".to_owned(), large_systems::TRICYCLE);
     add("ellipsoid".to_owned(), large_systems::LADEN_ELLIPSOID);
-    add("wheel on ice".to_owned(), large_systems::WHEEL_ON_ICE);
     add("biped".to_owned(), large_systems::BIPED);
 
     let compiler = match Compiler::new() {

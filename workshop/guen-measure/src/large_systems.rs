@@ -94,23 +94,6 @@ pub const LADEN_ELLIPSOID: &str = "pub system LadenEllipsoid {
     constraints { rolling: stone.velocity_at(foot) = cross(vec(0, 0, Omega), foot); }
 }";
 
-/// A driven wheel on a road with a patch of ice: a contact with friction in four modes, a switch, and a scene in the mode that rolls.
-pub const WHEEL_ON_ICE: &str = "pub system Wheel {
-    constants { m > 0, a > 0, J > 0, c >= 0, g = 9.81, mu_road = 4/5, mu_ice = 1/10, e in 0..1 = 0 }
-    inputs { torque }
-    coordinates { x, z, phi }
-    bodies { wheel { mass: m, center: vec(x, z), inertia: diag(0, 0, J), orientation: rot_z(-phi) } }
-    gravity = vec(0, -g);
-    parameters { speed_ahead = dot(x); up = dot(z); spin = dot(phi); }
-    forces { torque along spin; -c*speed_ahead along speed_ahead; }
-    switches { ice: (x - 5)*(9 - x); }
-    let p = vec(x, z - a);
-    contacts {
-        tyre: gap = z - a, slip = wheel.velocity_at(p).x, friction = mu_road + (mu_ice - mu_road)*ice, restitution = e;
-    }
-    scene Rolling { modes { tyre: stick; } track speed_ahead; }
-}";
-
 /// A planar biped of seven bodies on heels and toes with friction, with stops in its knees and ankles: eight contacts, of whose combinations
 /// twelve modes are left.
 pub const BIPED: &str = "pub system Biped {
