@@ -61,6 +61,13 @@ pub use taylor::{Series, Taylor};
 
 use crate::numbers::real::Real;
 
+/// Whether a state has so many entries that steps are made in place. Copies of it cost more than they save then, and fill the stack in
+/// a build without optimisation. An evaluation of DOP853 in place takes 1.2 times as long as by expressions with 64 entries, 0.7 with
+/// 128 and 0.55 with 2,000.
+const fn is_long<const N: usize>() -> bool {
+    N > 96
+}
+
 /// Returns the array with `entry(i)` in place `i`.
 // A loop, because the calls behind `core::array::from_fn` are not always inlined, and lanes need that. Each closure given to that
 // function makes five more to compile, too.

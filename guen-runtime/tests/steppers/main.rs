@@ -5,6 +5,7 @@ mod driver;
 mod guarded_steps;
 mod integration;
 mod late_starts;
+mod long_states;
 mod motions;
 mod narrow_features;
 mod orders;

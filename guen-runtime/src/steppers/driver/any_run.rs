@@ -41,8 +41,8 @@ pub(in crate::steppers) trait AnyRun<R: Real, const N: usize> {
     /// See [`StepperRun::defect`].
     fn defect(&self, before: &Checkpoint<R, N>) -> [R; N];
 
-    /// The state at a time of the last step, on the constraints.
-    fn at(&mut self, time: R) -> Result<[R; N], Cause>;
+    /// Writes the state at a time of the last step, on the constraints.
+    fn at(&mut self, time: R, state: &mut [R; N]) -> Result<(), Cause>;
 }
 
 /// A run, its system, and the polynomial of its last step once somebody has asked for it.
@@ -156,6 +156,12 @@ where
     }
 }
 
+// A function of its own, so that the room for what is not there is not in the frame of the caller in a build without optimisation.
+#[inline]
+fn forget<P>(polynomial: &mut Option<P>) {
+    *polynomial = None;
+}
+
 impl<'a, M, R, S, const N: usize> AnyRun<R, N> for SystemRun<'a, M, R, S, N>
 where
     M: Method<R, S, N>,
@@ -182,7 +188,7 @@ where
     }
 
     fn advance(&mut self, target: R, dense: bool) -> Result<(), Cause> {
-        self.polynomial = None;
+        forget(&mut self.polynomial);
         match self.switched {
             Some(_) => self.advance_over(target, dense),
             None => self.run.advance(self.system, target, dense),
@@ -195,13 +201,13 @@ where
         steps: u32,
         mut observer: Option<Observer<'_, R, N>>,
     ) -> Result<bool, Cause> {
-        self.polynomial = None;
+        forget(&mut self.polynomial);
         if observer.is_none() && self.switched.is_none() {
             return self.run.go_on(self.system, target, steps).map(|()| false);
         }
         for made in 0..steps.max(1) {
             if made > 0 {
-                let reached = *self.checkpoint();
+                let reached = self.checkpoint();
                 if reached.time == target || self.run.is_last(target) {
                     break;
                 }
@@ -223,14 +229,18 @@ where
         self.run.defect(self.system, before)
     }
 
-    fn at(&mut self, time: R) -> Result<[R; N], Cause> {
+    fn at(&mut self, time: R, state: &mut [R; N]) -> Result<(), Cause> {
         let reached = self.checkpoint();
         if time == reached.time {
-            return Ok(reached.state);
+            *state = reached.state;
+            return Ok(());
         }
         let Self { run, system, polynomial, .. } = self;
-        let mut state = polynomial.get_or_insert_with(|| run.dense(system)).at(time);
-        system.restore(time, &mut state).map_err(Cause::of_positions)?;
-        Ok(state)
+        let polynomial = match polynomial {
+            Some(known) => known,
+            none => none.insert(run.dense(system)),
+        };
+        *state = polynomial.at(time);
+        system.restore(time, state).map_err(Cause::of_positions)
     }
 }

@@ -89,12 +89,13 @@ impl<R: Real, const N: usize> Dense<R, N> {
         self
     }
 
-    /// Adds further terms `r4 ..`, at most four.
-    pub(in crate::steppers) fn with_terms<const M: usize>(mut self, further: [[R; N]; M]) -> Self {
+    /// Adds further terms `r4 ..`, at most four, which `term` returns in their order.
+    pub(in crate::steppers) fn add_terms<const M: usize>(&mut self, mut term: impl FnMut(usize) -> [R; N]) {
         const { assert!(M <= TERMS - 4, "a polynomial of degree seven at most") }
-        self.terms[4..4 + M].copy_from_slice(&further);
+        for j in 0..M {
+            self.terms[4 + j] = term(j);
+        }
         self.used = 4 + M;
-        self
     }
 
     /// The polynomial with the terms `r0 .. r3` given directly.

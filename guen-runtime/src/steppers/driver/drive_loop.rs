@@ -17,7 +17,7 @@ pub(super) type Receiver<'a, R, const N: usize> = &'a mut dyn FnMut(&Occurrence<
 
 /// The loop of a run with everything that is checked on its way: samples, events, observer and guard.
 pub(super) struct DriveLoop<'a, 'e, R, const N: usize> {
-    pub start: Checkpoint<R, N>,
+    pub start: &'e Checkpoint<R, N>,
     pub guard: Guard,
     pub observer: Option<Observer<'a, R, N>>,
     pub samples: &'a [R],
@@ -31,25 +31,44 @@ pub(super) struct DriveLoop<'a, 'e, R, const N: usize> {
 impl<R: Real, const N: usize> DriveLoop<'_, '_, R, N> {
     /// Takes the run through all times, and calls `visit` at each of them.
     pub(super) fn through(
-        mut self,
+        &mut self,
         run: &mut dyn AnyRun<R, N>,
         times: &[R],
         visit: Visitor<'_, R, N>,
     ) -> Result<IntegrationResult<R, N>, IntegrationError<R, N>> {
+        let mut end = *self.start;
+        match self.legs(run, times, visit, &mut end) {
+            Ok(outcome) => Ok(end.done(outcome)),
+            Err(cause) => Err(end.failed(cause)),
+        }
+    }
+
+    /// Does so, and writes where it ends or failed.
+    // One place for all ends, so that a run of a long state needs no further ones in a build without optimisation.
+    fn legs(
+        &mut self,
+        run: &mut dyn AnyRun<R, N>,
+        times: &[R],
+        visit: Visitor<'_, R, N>,
+        end: &mut Checkpoint<R, N>,
+    ) -> Result<Outcome, Cause> {
+        self.check(times)?;
+        self.guard.check()?;
+        let mut watch = Watch::of_run(self.guard, run);
         let start = self.start;
-        self.check(times).map_err(|cause| start.failed(cause))?;
-        let mut watch = Watch::of_run(self.guard, run).map_err(|cause| start.failed(cause))?;
         for followed in self.events.iter_mut() {
             followed.begin(start.time, &start.state);
         }
         while self.samples.get(self.visited) == Some(&start.time) {
             self.visit(start.time, &start.state);
         }
-        let (mut before, mut kept) = (start, false);
+        let mut before = *start;
+        let mut kept = false;
         let mut outcome = Outcome::Arrived;
         'times: for (index, &time) in times.iter().enumerate() {
             if !time.is_finite() {
-                return Err(run.checkpoint().failed(Cause::Setting(Setting::Time)));
+                *end = *run.checkpoint();
+                return Err(Cause::Setting(Setting::Time));
             }
             loop {
                 let here = run.checkpoint();
@@ -70,15 +89,14 @@ impl<R: Real, const N: usize> DriveLoop<'_, '_, R, N> {
                 };
                 let broken = match made {
                     Ok(broken) => broken,
-                    Err(cause) => return Err(watch.stop_run(run, cause)),
+                    Err(cause) => return Err(watch.stop_run(run, cause, end)),
                 };
-                watch
-                    .step(from, kept.then_some(&before), run)
-                    .map_err(|cause| watch.failed(run.checkpoint(), cause))?;
+                watch.step(from, kept.then_some(&before), run, end)?;
                 if dense {
-                    let ended = self.within_step(run, &before);
-                    if let Some(done) = ended.map_err(|cause| before.failed(cause))? {
-                        return watch.finish_run(Some(&before), run).map(|()| done);
+                    *end = before;
+                    if let Some(outcome) = self.within_step(run, &before, end)? {
+                        watch.finish_run(Some(&before), run, end)?;
+                        return Ok(outcome);
                     }
                 }
                 let reached = run.checkpoint();
@@ -89,8 +107,9 @@ impl<R: Real, const N: usize> DriveLoop<'_, '_, R, N> {
             }
             visit(index, time, &run.checkpoint().state);
         }
-        watch.finish_run(kept.then_some(&before), run)?;
-        Ok(run.checkpoint().done(outcome))
+        watch.finish_run(kept.then_some(&before), run, end)?;
+        *end = *run.checkpoint();
+        Ok(outcome)
     }
 
     /// Refuses settings that make no sense.

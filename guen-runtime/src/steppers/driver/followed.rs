@@ -38,7 +38,8 @@ impl<'a, R: Real, const N: usize> Followed<'a, R, N> {
 
     /// The function at a time of the last step; NaN where it has no state.
     fn value(&self, run: &mut dyn AnyRun<R, N>, time: R) -> f64 {
-        run.at(time).map_or(f64::NAN, |state| self.event.value(time, &state))
+        let mut state = [R::zero(); N];
+        run.at(time, &mut state).map_or(f64::NAN, |()| self.event.value(time, &state))
     }
 
     /// Looks for the first crossing of a new step.

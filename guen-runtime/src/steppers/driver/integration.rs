@@ -201,10 +201,11 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
         M: Method<R, S, N>,
         V: FnMut(usize, R, &[R; N]),
     {
-        let Self { system, start, guard, observer, samples, visitor, events, receiver } = self;
+        let Self { system, ref start, guard, observer, samples, visitor, events, receiver } = self;
         let mut events: [Followed<'_, R, N>; E] = events.map(Followed::new);
+        let mut run = SystemRun::new(method, start, system);
         let events = &mut events;
-        let drive_loop = DriveLoop { start, guard, observer, samples, visited: 0, visitor, events, receiver };
-        drive_loop.through(&mut SystemRun::new(method, &start, system), times, &mut visit)
+        DriveLoop { start, guard, observer, samples, visited: 0, visitor, events, receiver }
+            .through(&mut run, times, &mut visit)
     }
 }

@@ -7,22 +7,24 @@ use crate::steppers::driver::drive_loop::DriveLoop;
 use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::events::Occurrence;
 use crate::steppers::driver::followed::Followed;
-use crate::steppers::driver::run::{Checkpoint, IntegrationResult, Outcome};
+use crate::steppers::driver::run::{Checkpoint, Outcome};
 
 impl<R: Real, const N: usize> DriveLoop<'_, '_, R, N> {
-    /// Samples and events of the step from `before` to where the run stands. Answers with the end of the run, if
-    /// one of them ended it.
+    /// Samples and events of the step from `before` to where the run stands. Answers with the outcome of the run, and writes
+    /// its end, if one of them ended it.
     pub(super) fn within_step(
         &mut self,
         run: &mut dyn AnyRun<R, N>,
         before: &Checkpoint<R, N>,
-    ) -> Result<Option<IntegrationResult<R, N>>, Cause> {
+        end: &mut Checkpoint<R, N>,
+    ) -> Result<Option<Outcome>, Cause> {
         let after = run.checkpoint().time;
         let backwards = (after - before.time).to_f64() < 0.0;
         let origin = self.start.time;
         for followed in self.events.iter_mut() {
             followed.enter(origin, before, run);
         }
+        let mut state = before.state;
         loop {
             let mut first: Option<(usize, bool, Crossing<R>)> = None;
             for (i, Followed { event, crossing, .. }) in self.events.iter().enumerate() {
@@ -42,7 +44,7 @@ impl<R: Real, const N: usize> DriveLoop<'_, '_, R, N> {
                         until = crossing.time;
                     }
                 }
-                let state = run.at(until)?;
+                run.at(until, &mut state)?;
                 let mut moved = false;
                 for followed in self.events.iter_mut() {
                     let value = followed.event.value(until, &state);
@@ -55,13 +57,13 @@ impl<R: Real, const N: usize> DriveLoop<'_, '_, R, N> {
             while let Some(&time) = self.samples.get(self.visited)
                 && !earlier(until, time, backwards)
             {
-                let state = run.at(time)?;
+                run.at(time, &mut state)?;
                 self.visit(time, &state);
             }
             let Some((index, terminal, Crossing { rising, .. })) = first else {
                 return Ok(None);
             };
-            let state = run.at(until)?;
+            run.at(until, &mut state)?;
             if !terminal {
                 let stopped = self.report(&Occurrence { index, time: until, state, rising });
                 if let Some(followed) = self.events.get_mut(index) {
@@ -71,12 +73,14 @@ impl<R: Real, const N: usize> DriveLoop<'_, '_, R, N> {
                     continue;
                 }
             }
-            return Ok(Some(self.end_within(run, until, &state)));
+            let outcome = self.end_within(run, until, &state);
+            *end = Checkpoint { time: until, state, ..*run.checkpoint() };
+            return Ok(Some(outcome));
         }
     }
 
     /// Ends the run at a time within its last step: all that has happened by then is found first, then reported.
-    fn end_within(&mut self, run: &mut dyn AnyRun<R, N>, time: R, state: &[R; N]) -> IntegrationResult<R, N> {
+    fn end_within(&mut self, run: &mut dyn AnyRun<R, N>, time: R, state: &[R; N]) -> Outcome {
         for followed in self.events.iter_mut() {
             followed.settle(self.start.time, time, state, run);
         }
@@ -94,7 +98,6 @@ impl<R: Real, const N: usize> DriveLoop<'_, '_, R, N> {
         if let Some(observer) = &mut self.observer {
             let _ = observer(time, state);
         }
-        let statistics = run.checkpoint().statistics;
-        IntegrationResult { time, state: *state, outcome, statistics }
+        outcome
     }
 }

@@ -7,7 +7,7 @@ use crate::steppers::driver::run::{Checkpoint, StepperRun};
 use crate::steppers::entries;
 use crate::steppers::settings::Settings;
 use crate::steppers::step_size::{self, Control, Margin};
-use crate::steppers::{all_finite, shifted};
+use crate::steppers::{all_finite, is_long, shifted};
 use crate::system::System;
 
 /// An explicit formula with an estimate of its error.
@@ -19,29 +19,42 @@ pub trait Pair<R: Real, const N: usize> {
 
     /// Evaluations of a trial step, the slope at its beginning not counted.
     const TRIAL: u64;
+    /// Evaluations for the polynomial over a step.
+    const DENSE: u64;
     const CONTROL: Control;
 
-    /// A step on trial from `x` with the slope `k1`. The slope at the end is `Some` if the formula computes it.
-    fn attempt<S>(&self, system: &S, t: R, x: &[R; N], k1: &[R; N], h: R) -> Attempt<R, Self, N>
-    where
+    /// Room for a step on trial.
+    fn room() -> Attempt<R, Self::Stages, Self::Errors, N>;
+
+    /// Makes a step on trial from `x` with the slope `k1`. The slope at the end is `Some` if the formula computes it.
+    fn attempt<S>(
+        &self,
+        system: &S,
+        t: R,
+        x: &[R; N],
+        k1: &[R; N],
+        h: R,
+        made: &mut Attempt<R, Self::Stages, Self::Errors, N>,
+    ) where
         S: System<R, N> + ?Sized;
 
     /// The error of a step of size `h` in units of the tolerance.
     fn margin(&self, errors: &Self::Errors, h: f64, weights: &[f64; N]) -> Margin;
 
-    /// The polynomial over a step, with the slope at its end, and the evaluations that it took.
-    fn dense<S>(&self, system: &S, step: &Step<'_, R, Self::Stages, N>) -> (Dense<R, N>, u64)
+    /// The polynomial over a step, with the slope at its end.
+    fn dense<S>(&self, system: &S, step: &Step<'_, R, Self::Stages, N>) -> Dense<R, N>
     where
         S: System<R, N> + ?Sized;
 }
 
 /// A step on trial.
-pub struct Attempt<R: Real, P: Pair<R, N> + ?Sized, const N: usize> {
+#[derive(Clone, Copy, Debug)]
+pub struct Attempt<R, K, E, const N: usize> {
     pub state: [R; N],
     /// About that state, for the sizes of its entries: what is known of it early.
     pub guess: [R; N],
-    pub stages: P::Stages,
-    pub errors: P::Errors,
+    pub stages: K,
+    pub errors: E,
     pub end: Option<[R; N]>,
 }
 
@@ -88,13 +101,14 @@ where
     }
 
     /// Checks the settings and finds the first slope and step.
-    fn start<S>(&mut self, system: &S, target: R) -> Result<Ready<R, N>, Cause>
+    fn start<S>(&mut self, system: &S, target: R) -> Result<(), Cause>
     where
         S: System<R, N> + ?Sized,
     {
         let (slope, first_step) = self.settings.begin(system, &mut self.reached)?;
         if let Some(step) = first_step {
-            return Ok(Ready { slope, step, level: None });
+            self.ready = Some(Ready { slope, step, level: None });
+            return Ok(());
         }
         let (tolerance, Checkpoint { time, state, .. }) = (self.settings.tolerance, self.reached);
         let span = (target - time).to_f64();
@@ -109,39 +123,46 @@ where
         } else {
             guess
         };
-        Ok(Ready { slope, step, level: None })
+        self.ready = Some(Ready { slope, step, level: None });
+        Ok(())
     }
+
     /// Makes so many accepted steps, or fewer if it arrives.
     fn steps<S>(&mut self, system: &S, target: R, dense: bool, steps: u32) -> Result<(), Cause>
     where
         S: System<R, N> + ?Sized,
     {
-        let mut ready = match self.ready {
-            Some(ready) => ready,
-            None => self.start(system, target)?,
+        if self.ready.is_none() {
+            self.start(system, target)?;
+        }
+        let Self { pair, settings, origin, reached, before, ready: Some(ready), stages } = self else {
+            return Ok(());
         };
+        let mut room = P::room();
+        let mut several = |reached: &mut Checkpoint<R, N>, ready: &mut Ready<R, N>| {
+            for _ in 0..steps {
+                let kept = dense.then_some((&mut *before, &mut *stages));
+                step(*pair, *settings, system, (*origin, target), (reached, ready), kept, &mut room)?;
+                if reached.time == target {
+                    break;
+                }
+            }
+            Ok(())
+        };
+        if const { is_long::<N>() } {
+            return several(reached, ready);
+        }
         // Copies that nobody else knows of stay in registers from step to step. In memory, slopes are written one by one
         // and read together, for which a processor waits until all that was written before is in its cache.
-        let mut reached = self.reached;
-        let mut made = Ok(());
-        for _ in 0..steps {
-            let from = reached;
-            let leg = (self.origin, target);
-            made = step(self.pair, self.settings, system, leg, &mut reached, &mut ready).map(|stages| {
-                if dense {
-                    self.before = from;
-                    self.stages = Some(stages);
-                }
-            });
-            if made.is_err() || reached.time == target {
-                break;
-            }
-        }
-        self.reached = reached;
-        self.ready = Some(ready);
+        let (mut here, mut next) = (*reached, *ready);
+        let made = several(&mut here, &mut next);
+        (*reached, *ready) = (here, next);
         made
     }
 }
+
+/// The place from which the last step was made, and its slopes, for dense output.
+type Kept<'a, R, K, const N: usize> = Option<(&'a mut Checkpoint<R, N>, &'a mut Option<K>)>;
 
 /// Makes one accepted step of a run that began at `origin`.
 #[inline(always)]
@@ -150,9 +171,10 @@ fn step<P, R, S, const N: usize>(
     Settings { tolerance, max_steps, .. }: Settings,
     system: &S,
     (origin, target): (R, R),
-    reached: &mut Checkpoint<R, N>,
-    ready: &mut Ready<R, N>,
-) -> Result<P::Stages, Cause>
+    (reached, ready): (&mut Checkpoint<R, N>, &mut Ready<R, N>),
+    kept: Kept<'_, R, P::Stages, N>,
+    attempt: &mut Attempt<R, P::Stages, P::Errors, N>,
+) -> Result<(), Cause>
 where
     P: Pair<R, N>,
     R: Ordered,
@@ -176,7 +198,7 @@ where
         let size = h.to_f64().abs();
         // Known before the step is made, so that nothing waits for it afterwards.
         let trend = P::CONTROL.trend(level, size);
-        let attempt = pair.attempt(system, time, &state, &slope, h);
+        pair.attempt(system, time, &state, &slope, h, attempt);
         statistics.evaluations += P::TRIAL;
         let margin = pair.margin(&attempt.errors, size, &tolerance.weights(&state, &attempt.guess));
         // An error beyond the range of doubles, in units of a tiny tolerance, is an error of a state that there is.
@@ -206,11 +228,15 @@ where
                 }
                 let level = Some(P::CONTROL.level(margin, size));
                 *ready = Ready { slope: next_slope, step: next_step, level };
-                statistics.accepted += 1;
+                if let Some((before, stages)) = kept {
+                    *before = *reached;
+                    keep(stages, &attempt.stages);
+                }
+                reached.statistics.accepted += 1;
                 reached.time = next;
                 reached.time_rest = R::zero();
                 reached.state = accepted;
-                return Ok(attempt.stages);
+                return Ok(());
             }
         }
         statistics.rejected += 1;
@@ -229,6 +255,12 @@ where
             step = shortest;
         }
     }
+}
+
+// A function of its own, so that its copies of long states are not in the frame of the caller in a build without optimisation.
+#[inline]
+fn keep<K: Copy>(place: &mut Option<K>, stages: &K) {
+    *place = Some(*stages);
 }
 
 impl<P, R, S, const N: usize> StepperRun<R, S, N> for Adaptive<'_, P, P::Stages, R, N>
@@ -268,8 +300,8 @@ where
             return Dense::cubic(to.time, R::one(), [to.state, zero, zero, zero]);
         };
         let step = Step { from, to, stages, end: &ready.slope, h };
-        let (dense, evaluations) = self.pair.dense(system, &step);
-        self.reached.statistics.evaluations += evaluations;
+        let dense = self.pair.dense(system, &step);
+        self.reached.statistics.evaluations += P::DENSE;
         dense
     }
 }

@@ -7,7 +7,7 @@ use crate::steppers::driver::run::Checkpoint;
 use crate::steppers::driver::statistics::Statistics;
 use crate::steppers::entries;
 use crate::steppers::explicit::adaptive::Pair;
-use crate::steppers::explicit::tableau::{Tableau, Trial};
+use crate::steppers::explicit::tableau::Tableau;
 use crate::steppers::explicit::tsit5::Formula;
 use crate::system::System;
 
@@ -118,9 +118,9 @@ impl<R: Ordered> Bounded<R> {
 }
 
 /// DOP853's two estimates as one, for each entry.
-fn dop853_error<R: Real, const N: usize>(errors: &Trial<R, N>, h: f64) -> [f64; N] {
+fn dop853_error<R: Real, const N: usize>([error5, error3]: &[[R; N]; 2], h: f64) -> [f64; N] {
     entries(|i| {
-        let (five, three) = (errors.error5[i].to_f64(), errors.error3[i].to_f64());
+        let (five, three) = (error5[i].to_f64(), error3[i].to_f64());
         let size = libm::sqrt(five * five + 0.01 * three * three);
         if five == 0.0 { 0.0 } else { h * five * (five / size).abs() }.abs()
     })
@@ -199,6 +199,7 @@ where
 {
     let (t0, span) = (reached.time, t1 - reached.time);
     let mut known = Known { error: [0.0; N], way: [0.0; N], growth: 0.0, resolved: true };
+    let mut attempt = P::room();
     let mut end: Option<[R; N]> = None;
     let steps = if span == R::zero() { 0 } else { steps };
     for step in 1..=steps {
@@ -209,7 +210,7 @@ where
             reached.statistics.evaluations += 1;
             system.rhs(time, &reached.state)
         });
-        let attempt = pair.attempt(system, time, &reached.state, &slope, h);
+        pair.attempt(system, time, &reached.state, &slope, h, &mut attempt);
         reached.statistics.evaluations += P::TRIAL;
         let mut state = attempt.state;
         if !all_finite(&state) {

@@ -110,9 +110,12 @@ where
     type Memory = (F::Memory, [R; N]);
     const EVALUATIONS: u32 = F::EVALUATIONS;
 
-    fn begin(&self) -> (R, Self::Memory) {
-        let (step, memory) = self.method.begin();
-        (step, (memory, [R::zero(); N]))
+    fn step_size(&self) -> R {
+        self.method.step_size()
+    }
+
+    fn memory(&self) -> Self::Memory {
+        (self.method.memory(), [R::zero(); N])
     }
 
     #[inline]

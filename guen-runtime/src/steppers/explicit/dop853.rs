@@ -7,8 +7,8 @@ use crate::numbers::real::{Ordered, Real};
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::run::{Checkpoint, Method};
 use crate::steppers::driver::short_ways::short_ways;
-use crate::steppers::explicit::adaptive::{Adaptive, Attempt, Pair, Step};
-use crate::steppers::explicit::tableau::{Made, Stages};
+use crate::steppers::explicit::adaptive::{Adaptive, Pair, Step};
+use crate::steppers::explicit::tableau::{Made, Stages, blank};
 use crate::steppers::settings::adaptive_settings;
 use crate::steppers::step_size::{self, Control, Margin, Tolerance};
 use crate::system::System;
@@ -82,33 +82,37 @@ const NEGLIGIBLE_SQUARES: f64 = 1e-150;
 
 impl<R: Real, const N: usize> Pair<R, N> for Tableau<R> {
     type Stages = Stages<R, N>;
-    type Errors = Trial<R, N>;
+    type Errors = [[R; N]; 2];
 
     const TRIAL: u64 = 11;
+    const DENSE: u64 = 3;
     const CONTROL: Control = Control { power: 8, safety: 0.8, shorten: 0.333, grow: 6.0, predict: true };
 
-    #[inline]
-    fn attempt<S>(&self, system: &S, t: R, x: &[R; N], k1: &[R; N], h: R) -> Attempt<R, Self, N>
-    where
-        S: System<R, N> + ?Sized,
-    {
-        let Made { trial, guess, stages } = self.step(system, t, x, k1, h);
-        Attempt { state: trial.state, guess, stages, errors: trial, end: None }
+    fn room() -> Made<R, N> {
+        blank()
     }
 
     #[inline]
-    fn margin(&self, errors: &Trial<R, N>, h: f64, weights: &[f64; N]) -> Margin {
-        let five = step_size::squares(&errors.error5, weights);
-        let three = step_size::squares(&errors.error3, weights);
+    fn attempt<S>(&self, system: &S, t: R, x: &[R; N], k1: &[R; N], h: R, made: &mut Made<R, N>)
+    where
+        S: System<R, N> + ?Sized,
+    {
+        self.step(system, t, x, k1, h, made);
+    }
+
+    #[inline]
+    fn margin(&self, [five, three]: &[[R; N]; 2], h: f64, weights: &[f64; N]) -> Margin {
+        let five = step_size::squares(five, weights);
+        let three = step_size::squares(three, weights);
         let size = h * five;
         Margin { allowed: N as f64 * (five + 0.01 * three) + NEGLIGIBLE_SQUARES, found: size * size }
     }
 
-    fn dense<S>(&self, system: &S, step: &Step<'_, R, Stages<R, N>, N>) -> (Dense<R, N>, u64)
+    fn dense<S>(&self, system: &S, step: &Step<'_, R, Stages<R, N>, N>) -> Dense<R, N>
     where
         S: System<R, N> + ?Sized,
     {
-        (self.dense(system, step.stages, step.from, step.to, step.end, step.h), 3)
+        self.dense(system, step.stages, step.from, step.to, step.end, step.h)
     }
 }
 
@@ -138,24 +142,28 @@ mod tests {
 
     impl<const N: usize> Pair<f64, N> for Original {
         type Stages = Stages<f64, N>;
-        type Errors = Trial<f64, N>;
+        type Errors = [[f64; N]; 2];
 
         const TRIAL: u64 = 11;
+        const DENSE: u64 = 3;
         const CONTROL: Control = Control { power: 8, safety: 0.9, shorten: 0.333, grow: 6.0, predict: false };
 
-        fn attempt<S>(&self, system: &S, t: f64, x: &[f64; N], k1: &[f64; N], h: f64) -> Attempt<f64, Self, N>
+        fn room() -> Made<f64, N> {
+            blank()
+        }
+
+        fn attempt<S>(&self, system: &S, t: f64, x: &[f64; N], k1: &[f64; N], h: f64, made: &mut Made<f64, N>)
         where
             S: System<f64, N> + ?Sized,
         {
-            let Attempt { state, guess, stages, errors, end } = self.0.attempt(system, t, x, k1, h);
-            Attempt { state, guess, stages, errors, end }
+            self.0.attempt(system, t, x, k1, h, made);
         }
 
-        fn margin(&self, errors: &Trial<f64, N>, h: f64, weights: &[f64; N]) -> Margin {
+        fn margin(&self, errors: &[[f64; N]; 2], h: f64, weights: &[f64; N]) -> Margin {
             self.0.margin(errors, h, weights)
         }
 
-        fn dense<S>(&self, system: &S, step: &Step<'_, f64, Stages<f64, N>, N>) -> (Dense<f64, N>, u64)
+        fn dense<S>(&self, system: &S, step: &Step<'_, f64, Stages<f64, N>, N>) -> Dense<f64, N>
         where
             S: System<f64, N> + ?Sized,
         {

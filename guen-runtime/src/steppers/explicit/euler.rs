@@ -51,8 +51,12 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Eul
     type Memory = Slopes<R, N>;
     const EVALUATIONS: u32 = 1;
 
-    fn begin(&self) -> (R, Self::Memory) {
-        (self.step, Slopes::new())
+    fn step_size(&self) -> R {
+        self.step
+    }
+
+    fn memory(&self) -> Self::Memory {
+        Slopes::new()
     }
 
     #[inline]

@@ -36,8 +36,11 @@ pub trait Formula<R: Real, S: ?Sized, const N: usize> {
 
     const EVALUATIONS: u32;
 
-    /// The step size, and the memory at the beginning of a run.
-    fn begin(&self) -> (R, Self::Memory);
+    /// The step size.
+    fn step_size(&self) -> R;
+
+    /// The memory at the beginning of a run.
+    fn memory(&self) -> Self::Memory;
 
     /// Returns the state at the end of a step. Counts its work.
     fn step(&self, next: NextStep<'_, R, S, Self::Memory, N>) -> Result<[R; N], Cause>;
@@ -76,8 +79,8 @@ impl<'a, F, M, R: Real, const N: usize> Fixed<'a, F, M, R, N> {
     where
         F: Formula<R, S, N, Memory = M>,
     {
-        let (step, memory) = formula.begin();
-        Self { formula, memory, step, reached: *start, before: *start, leg: None }
+        let step = formula.step_size();
+        Self { formula, memory: formula.memory(), step, reached: *start, before: *start, leg: None }
     }
 }
 

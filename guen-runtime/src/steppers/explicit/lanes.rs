@@ -235,13 +235,11 @@ where
     let start = Moment { time: t0, state: *x0 };
     let mut lanes =
         Going { lanes: Mask::all(L::COUNT), statistics: Statistics::default(), ends: InLanes::none() };
-    let watch = match Watch::new(guard, system, M::EVALUATIONS, true, start.place()) {
-        Ok(watch) => watch,
-        Err(cause) => {
-            lanes.fail_all(cause, start.place());
-            return lanes.ends;
-        }
-    };
+    if let Err(cause) = guard.check() {
+        lanes.fail_all(cause, start.place());
+        return lanes.ends;
+    }
+    let watch = Watch::new(guard, system, M::EVALUATIONS, true, start.place());
     let (formula, step, memory) = method.ready();
     let mut run: Run<'_, M, L, S, N> =
         Run { system, formula, memory, now: start, before: start, kept: false, lanes, watch };

@@ -7,6 +7,7 @@ pub mod dop853;
 mod dop853_coefficients;
 pub(crate) mod euler;
 pub(crate) mod fixed;
+mod in_place;
 pub(crate) mod lanes;
 pub mod rk4;
 pub(crate) mod rk8;

@@ -139,8 +139,12 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk4
     type Memory = Slopes<R, N>;
     const EVALUATIONS: u32 = 4;
 
-    fn begin(&self) -> (R, Self::Memory) {
-        (self.step, Slopes::new())
+    fn step_size(&self) -> R {
+        self.step
+    }
+
+    fn memory(&self) -> Self::Memory {
+        Slopes::new()
     }
 
     #[inline]

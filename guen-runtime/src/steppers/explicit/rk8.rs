@@ -9,7 +9,7 @@ use crate::steppers::driver::statistics::Statistics;
 use crate::steppers::explicit::compensated::Compensated;
 use crate::steppers::explicit::fixed::{Changes, Fixed, Formula, LastStep, NextStep, Slopes, fixed_step};
 use crate::steppers::explicit::lanes::{LaneFormula, Moment, in_lanes};
-use crate::steppers::explicit::tableau::{Stages, Tableau};
+use crate::steppers::explicit::tableau::{Stages, Tableau, blank};
 use crate::steppers::scaled;
 use crate::steppers::shifted;
 use crate::system::System;
@@ -64,8 +64,12 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk8
     type Memory = Memory<R, N>;
     const EVALUATIONS: u32 = 12;
 
-    fn begin(&self) -> (R, Self::Memory) {
-        (self.step, Memory { slopes: Slopes::new(), stages: [[R::zero(); N]; 8] })
+    fn step_size(&self) -> R {
+        self.step
+    }
+
+    fn memory(&self) -> Self::Memory {
+        Memory { slopes: Slopes::new(), stages: [[R::zero(); N]; 8] }
     }
 
     #[inline]
@@ -116,12 +120,13 @@ impl<R: Real> Rk8<R> {
     ) -> [R; N] {
         let NextStep { system, memory, from, h, dense, statistics } = next;
         let k1 = memory.slopes.begin(system, from, statistics);
-        let stages = self.tableau.late(system, from.time, &from.state, &k1, h).stages;
+        let mut made = blank();
+        self.tableau.late(system, from.time, &from.state, &k1, h, &mut made);
         statistics.evaluations += 11;
         if dense {
-            memory.stages = stages;
+            memory.stages = made.stages;
         }
-        self.tableau.slope(&stages)
+        self.tableau.slope(&made.stages)
     }
 }
 
@@ -157,11 +162,12 @@ impl<L: Lanes, S: System<L, N> + ?Sized, const N: usize> LaneFormula<L, S, N> fo
         L::vectorize(
             #[inline(always)]
             || {
-                let stages = tableau.stepped::<false, S, N>(system, t, x, &system.rhs(t, x), h).stages;
+                let mut made = blank();
+                tableau.stepped::<false, S, N>(system, t, x, &system.rhs(t, x), h, &mut made);
                 if keep {
-                    *memory = stages;
+                    *memory = made.stages;
                 }
-                shifted(x, h, &tableau.slope(&stages))
+                shifted(x, h, &tableau.slope(&made.stages))
             },
         )
     }

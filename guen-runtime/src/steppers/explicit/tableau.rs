@@ -5,9 +5,10 @@ use crate::numbers::decimal::reals;
 use crate::numbers::real::Real;
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::run::Checkpoint;
+use crate::steppers::explicit::adaptive::Attempt;
 use crate::steppers::explicit::dop853_coefficients as published;
 use crate::steppers::scaled;
-use crate::steppers::{ahead, arrived, leading, moved, shifted, weighted};
+use crate::steppers::{ahead, arrived, is_long, leading, moved, shifted, weighted};
 use crate::system::System;
 
 /// The coefficients of the method in the real `R`, converted once.
@@ -51,12 +52,15 @@ pub struct Trial<R, const N: usize> {
 /// The slopes of stages 1 and 6 to 12, which weights and interpolant are made of.
 pub(crate) type Stages<R, const N: usize> = [[R; N]; 8];
 
-/// A step with what it was made of.
-pub(in crate::steppers) struct Made<R, const N: usize> {
-    pub trial: Trial<R, N>,
-    /// The argument of the last stage, which is at the end of the step too and known one slope earlier.
-    pub guess: [R; N],
-    pub stages: Stages<R, N>,
+/// A step with what it was made of. The guess of its end is the argument of the last stage, which is there too and known one slope
+/// earlier; the errors are those of order five and three.
+pub(in crate::steppers) type Made<R, const N: usize> = Attempt<R, Stages<R, N>, [[R; N]; 2], N>;
+
+/// Room for a step.
+#[inline]
+pub(in crate::steppers) fn blank<R: Real, const N: usize>() -> Made<R, N> {
+    let none = [R::zero(); N];
+    Made { state: none, guess: none, stages: [none; 8], errors: [none; 2], end: None }
 }
 
 impl<R: Real> Tableau<R> {
@@ -143,7 +147,10 @@ impl<R: Real> Tableau<R> {
     where
         S: System<R, N> + ?Sized,
     {
-        self.late(system, t, x, k1, h).trial
+        let mut made = blank();
+        self.late(system, t, x, k1, h, &mut made);
+        let Made { state, errors: [error5, error3], .. } = made;
+        Trial { state, error5, error3 }
     }
 
     /// A step of [`Dop853`](crate::steppers::Dop853): [`stepped`](Self::stepped) as a function of its own, with `EARLY`.
@@ -155,11 +162,11 @@ impl<R: Real> Tableau<R> {
         x: &[R; N],
         k1: &[R; N],
         h: R,
-    ) -> Made<R, N>
-    where
+        made: &mut Made<R, N>,
+    ) where
         S: System<R, N> + ?Sized,
     {
-        self.stepped::<true, S, N>(system, t, x, k1, h)
+        self.stepped::<true, S, N>(system, t, x, k1, h, made);
     }
 
     /// [`stepped`](Self::stepped) as a function of its own, without `EARLY`.
@@ -172,14 +179,14 @@ impl<R: Real> Tableau<R> {
         x: &[R; N],
         k1: &[R; N],
         h: R,
-    ) -> Made<R, N>
-    where
+        made: &mut Made<R, N>,
+    ) where
         S: System<R, N> + ?Sized,
     {
         R::vectorize(
             #[inline(always)]
-            || self.stepped::<false, S, N>(system, t, x, k1, h),
-        )
+            || self.stepped::<false, S, N>(system, t, x, k1, h, made),
+        );
     }
 
     /// The coefficients in another real that has those of this one.
@@ -226,10 +233,13 @@ impl<R: Real> Tableau<R> {
         x: &[R; N],
         k1: &[R; N],
         h: R,
-    ) -> Made<R, N>
-    where
+        made: &mut Made<R, N>,
+    ) where
         S: System<R, N> + ?Sized,
     {
+        if const { is_long::<N>() } {
+            return self.stepped_in_place::<EARLY, S, N>(system, t, x, k1, h, made);
+        }
         let c = &self.c;
         let at2 = shifted(x, h, &weighted(&self.a2, [k1]));
         let near3 = ahead::<EARLY, _, _, _>(x, h, &self.a3, [k1]);
@@ -272,12 +282,9 @@ impl<R: Real> Tableau<R> {
         let five = shifted(&heads[1], self.e5[6], &k11);
         let three = shifted(&heads[2], self.e3[6], &k11);
         let k12 = system.rhs(t + c[10] * h, &at12);
-        let trial = Trial {
-            state: arrived::<EARLY, _, _>(x, h, &near, self.b[7], &k12),
-            error5: shifted(&five, self.e5[7], &k12),
-            error3: shifted(&three, self.e3[7], &k12),
-        };
-        Made { trial, guess: at12, stages: [*k1, k6, k7, k8, k9, k10, k11, k12] }
+        let state = arrived::<EARLY, _, _>(x, h, &near, self.b[7], &k12);
+        let errors = [shifted(&five, self.e5[7], &k12), shifted(&three, self.e3[7], &k12)];
+        *made = Made { state, guess: at12, stages: [*k1, k6, k7, k8, k9, k10, k11, k12], errors, end: None };
     }
 
     /// Returns the parts of the new state and of both errors that are known two slopes before the end.
@@ -339,10 +346,10 @@ impl<R: Real> Tableau<R> {
         let k14 = at(0, weighted(&self.a14, [k1, k7, k8, k9, k10, k11, k12, end]));
         let k15 = at(1, weighted(&self.a15, [k1, k6, k7, k8, k11, k12, end, &k14]));
         let k16 = at(2, weighted(&self.a16, [k1, k6, k7, k8, k9, end, &k14, &k15]));
-        let further = self
-            .d
-            .map(|d| scaled(h, &weighted(&d, [k1, k6, k7, k8, k9, k10, k11, k12, end, &k14, &k15, &k16])));
-        Dense::hermite(from.time, h, &from.state, k1, &to.state, end).with_terms(further)
+        let mut dense = Dense::hermite(from.time, h, &from.state, k1, &to.state, end);
+        let slopes = [k1, k6, k7, k8, k9, k10, k11, k12, end, &k14, &k15, &k16];
+        dense.add_terms::<4>(|j| scaled(h, &weighted(&self.d[j], slopes)));
+        dense
     }
 }
 

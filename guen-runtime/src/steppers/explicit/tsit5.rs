@@ -6,11 +6,12 @@ use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::run::{Checkpoint, Method};
 use crate::steppers::driver::short_ways::short_ways;
 use crate::steppers::explicit::adaptive::{Adaptive, Attempt, Pair, Step};
+use crate::steppers::explicit::in_place::{argument, combine};
 use crate::steppers::explicit::tsit5_coefficients as published;
 use crate::steppers::scaled;
 use crate::steppers::settings::adaptive_settings;
 use crate::steppers::step_size::{self, Control, Margin, Tolerance};
-use crate::steppers::{ahead, arrived, leading, shifted, weighted};
+use crate::steppers::{ahead, arrived, is_long, leading, shifted, weighted};
 use crate::system::System;
 
 /// Tsit5: order five, with a step that adapts to a tolerance.
@@ -82,6 +83,9 @@ pub struct Formula<R> {
 /// The slopes of all seven stages.
 pub(crate) type Stages<R, const N: usize> = [[R; N]; 7];
 
+/// A step with what it was made of.
+type Made<R, const N: usize> = Attempt<R, Stages<R, N>, [R; N], N>;
+
 impl<R: Real> Formula<R> {
     pub(in crate::steppers) fn new() -> Self {
         Self {
@@ -96,6 +100,32 @@ impl<R: Real> Formula<R> {
             d: reals(&published::D),
         }
     }
+
+    /// Makes a step for a long state, to the bit as it is made for a short one.
+    fn attempt_in_place<S, const N: usize>(
+        &self,
+        system: &S,
+        t: R,
+        x: &[R; N],
+        k1: &[R; N],
+        h: R,
+        made: &mut Made<R, N>,
+    ) where
+        S: System<R, N> + ?Sized,
+    {
+        let Self { c, a2, a3, a4, a5, a6, b, e, .. } = self;
+        let Attempt { state, guess, stages, errors, end } = made;
+        let rows: [&[R]; 6] = [a2, a3, a4, a5, a6, b];
+        stages[0] = *k1;
+        for (i, weights) in rows.into_iter().enumerate() {
+            argument::<true, _, _>(guess, (x, h), weights, i.min(1), |j| &stages[j]);
+            let node = c.get(i).copied().unwrap_or(R::one());
+            stages[i + 1] = system.rhs(t + node * h, guess);
+        }
+        *state = *guess;
+        combine(errors, e, |j| &stages[j]);
+        *end = Some(stages[6]);
+    }
 }
 
 impl<R: Real, const N: usize> Pair<R, N> for Formula<R> {
@@ -104,13 +134,22 @@ impl<R: Real, const N: usize> Pair<R, N> for Formula<R> {
     type Errors = [R; N];
 
     const TRIAL: u64 = 6;
+    const DENSE: u64 = 0;
     const CONTROL: Control = Control { power: 5, safety: 0.8, shorten: 0.2, grow: 5.0, predict: true };
 
+    fn room() -> Made<R, N> {
+        let none = [R::zero(); N];
+        Attempt { state: none, guess: none, stages: [none; 7], errors: none, end: None }
+    }
+
     #[inline]
-    fn attempt<S>(&self, system: &S, t: R, x: &[R; N], k1: &[R; N], h: R) -> Attempt<R, Self, N>
+    fn attempt<S>(&self, system: &S, t: R, x: &[R; N], k1: &[R; N], h: R, made: &mut Made<R, N>)
     where
         S: System<R, N> + ?Sized,
     {
+        if const { is_long::<N>() } {
+            return self.attempt_in_place(system, t, x, k1, h, made);
+        }
         // As in DOP853: all but the last slope's part is summed up before that slope is asked for.
         let c = &self.c;
         let at2 = shifted(x, h, &weighted(&self.a2, [k1]));
@@ -132,7 +171,7 @@ impl<R: Real, const N: usize> Pair<R, N> for Formula<R> {
         let error = leading(&self.e, [k1, &k2, &k3, &k4, &k5, &k6]);
         let k7 = system.rhs(t + h, &state);
         let errors = shifted(&error, self.e[6], &k7);
-        Attempt { state, guess: state, stages: [*k1, k2, k3, k4, k5, k6, k7], errors, end: Some(k7) }
+        *made = Attempt { state, guess: state, stages: [*k1, k2, k3, k4, k5, k6, k7], errors, end: Some(k7) };
     }
 
     #[inline]
@@ -140,15 +179,15 @@ impl<R: Real, const N: usize> Pair<R, N> for Formula<R> {
         Margin::of_mean::<N>(h * h * step_size::squares(errors, weights))
     }
 
-    fn dense<S>(&self, _system: &S, step: &Step<'_, R, Stages<R, N>, N>) -> (Dense<R, N>, u64)
+    fn dense<S>(&self, _system: &S, step: &Step<'_, R, Stages<R, N>, N>) -> Dense<R, N>
     where
         S: System<R, N> + ?Sized,
     {
         let Step { from, to, stages, h, .. } = *step;
         // The formula's own slope at the end: where a constraint was restored, the state's is another.
-        let hermite = Dense::hermite(from.time, h, &from.state, &stages[0], &to.state, &stages[6]);
-        let bend = weighted(&self.d, stages.each_ref());
-        (hermite.with_terms([scaled(h, &bend)]), 0)
+        let mut dense = Dense::hermite(from.time, h, &from.state, &stages[0], &to.state, &stages[6]);
+        dense.add_terms::<1>(|_| scaled(h, &weighted(&self.d, stages.each_ref())));
+        dense
     }
 }
 
@@ -161,3 +200,27 @@ impl<R: Ordered, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for T
 }
 
 short_ways!(Tsit5 over Ordered, systems System);
+
+#[cfg(test)]
+mod tests {
+    use super::{Formula, Made};
+    use crate::steppers::explicit::adaptive::Pair;
+    use crate::{System, from_fn};
+
+    #[test]
+    fn steps_in_place_are_those_by_expressions() {
+        let pendulum = from_fn(|t: f64, &[q, w, z]: &[f64; 3]| [w, z * t - q.sin(), q * w - z]);
+        let formula = Formula::new();
+        for k in 1..50 {
+            let part = |numerator: i32| f64::from(numerator) / 97.0;
+            let (t, x, h) = (part(k), [part(3 * k), part(40 - k), part(7 - 2 * k)], part(2 * k - 51));
+            let k1 = pendulum.rhs(t, &x);
+            let (mut here, mut there): (Made<f64, 3>, Made<f64, 3>) = (Formula::room(), Formula::room());
+            formula.attempt(&pendulum, t, &x, &k1, h, &mut here);
+            formula.attempt_in_place(&pendulum, t, &x, &k1, h, &mut there);
+            assert!(here.state == there.state && here.guess == there.guess, "step {k}");
+            assert!(here.stages == there.stages && here.errors == there.errors, "step {k}");
+            assert_eq!(here.end, there.end);
+        }
+    }
+}

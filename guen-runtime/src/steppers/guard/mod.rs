@@ -22,7 +22,7 @@ pub(in crate::steppers) use watch::Watch;
 
 use crate::numbers::lanes::Mask;
 use crate::numbers::real::Real;
-use crate::steppers::driver::error::Cause;
+use crate::steppers::driver::error::{Cause, Setting};
 use crate::system::System;
 
 /// The limits that a run must not violate. A stepper checks these by default, on whatever the system tells in
@@ -132,10 +132,11 @@ impl Guard {
     where
         S: System<f64, N> + ?Sized,
     {
+        self.check()?;
         // Every state is as the end of a step.
         let every = self.every.filter(|steps| *steps == u32::MAX).or(Some(1));
         let start = TimeAndState { time: start.0, state: start.1 };
-        let mut watch = Watch::<f64, One, N>::new(Self { every, ..self }, system, 1, true, start)?;
+        let mut watch = Watch::<f64, One, N>::new(Self { every, ..self }, system, 1, true, start);
         let mut found = Ok(());
         for (time, state) in states {
             if watch.counts(1) {
@@ -147,10 +148,12 @@ impl Guard {
         Ok(())
     }
 
-    pub(super) fn is_valid(&self) -> bool {
+    /// Refuses limits that make no sense.
+    pub(super) fn check(&self) -> Result<(), Cause> {
         let Self { energy, residual, carried, singularity, condition, step, approach, .. } = *self;
-        !singularity.is_nan()
-            && [energy, residual, carried, condition, step, approach].iter().all(|limit| *limit >= 0.0)
+        let valid = !singularity.is_nan()
+            && [energy, residual, carried, condition, step, approach].iter().all(|limit| *limit >= 0.0);
+        if valid { Ok(()) } else { Err(Cause::Setting(Setting::Guard)) }
     }
 
     /// The limits for a real: those given are meant for `f64`.

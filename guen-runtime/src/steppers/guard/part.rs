@@ -25,7 +25,8 @@ impl<const N: usize> PartWatch<N> {
         M: Method<f64, S, N>,
     {
         let (evaluations, fixed) = (M::Run::EVALUATIONS, M::Run::JUDGED);
-        Watch::new(guard, system, evaluations, fixed, place(start)).map(Self)
+        guard.check()?;
+        Ok(Self(Watch::new(guard, system, evaluations, fixed, place(start))))
     }
 
     /// Counts a step, and checks its end if it is time to.

@@ -6,7 +6,7 @@ use crate::numbers::lanes::Mask;
 use crate::numbers::real::Real;
 use crate::steppers::all_finite;
 use crate::steppers::driver::any_run::AnyRun;
-use crate::steppers::driver::error::{Cause, IntegrationError, Setting};
+use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::run::Checkpoint;
 use crate::steppers::guard::Guard;
 use crate::steppers::guard::known::{Known, TimeAndState, Watched};
@@ -41,24 +41,21 @@ pub(in crate::steppers) struct Watch<R: Real, V: Runs<R>, const N: usize> {
 }
 
 impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
-    /// Creates a watch over steps of so many evaluations, `fixed` or not.
+    /// Creates a watch over steps of so many evaluations, `fixed` or not, with limits that were checked.
     pub(crate) fn new<S>(
         guard: Guard,
         system: &S,
         evaluations: u32,
         fixed: bool,
         start: TimeAndState<'_, R, N>,
-    ) -> Result<Self, Cause>
+    ) -> Self
     where
         S: Watched<R, N> + ?Sized,
     {
-        if !guard.is_valid() {
-            return Err(Cause::Setting(Setting::Guard));
-        }
         let Schedule { young, singularities, every } =
             Schedule::new(evaluations, system.prices(), fixed, guard.every);
         let first = if every == u32::MAX { every } else { 1 };
-        Ok(Self {
+        Self {
             guard: guard.for_real::<R>(),
             every,
             fixed,
@@ -73,7 +70,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
             good: (start.time, *start.state),
             known: None,
             runs: PhantomData,
-        })
+        }
     }
 
     /// Whether the guard will do something after the next step.
@@ -356,17 +353,19 @@ fn place<R: Real, const N: usize>(at: &Checkpoint<R, N>) -> TimeAndState<'_, R, 
 
 impl<R: Real, const N: usize> Watch<R, One, N> {
     /// Creates a watch over one run of a method.
-    pub(crate) fn of_run(guard: Guard, run: &dyn AnyRun<R, N>) -> Result<Self, Cause> {
+    pub(crate) fn of_run(guard: Guard, run: &dyn AnyRun<R, N>) -> Self {
         Self::new(guard, run.system(), run.evaluations(), run.is_judged(), place(run.checkpoint()))
     }
 
-    /// Counts the steps since `from`, and checks if it is time to; `before` is where the last one began, if that was wanted.
+    /// Counts the steps since `from`, and checks if it is time to; `before` is where the last one began, if that was wanted. Writes the
+    /// end of a run that cannot go on.
     #[inline]
     pub(crate) fn step(
         &mut self,
         from: u64,
         before: Option<&Checkpoint<R, N>>,
         run: &dyn AnyRun<R, N>,
+        end: &mut Checkpoint<R, N>,
     ) -> Result<(), Cause> {
         let reached = run.checkpoint();
         let made = reached.statistics.accepted.saturating_sub(from);
@@ -376,44 +375,59 @@ impl<R: Real, const N: usize> Watch<R, One, N> {
         let mut fault = Cause::NotFinite;
         let (step, now) = (last(before.filter(|_| self.fixed), run), place(reached));
         let going = self.check(run.system(), step, now, Mask::all(1), |_, cause, _| fault = cause);
-        if going.is_empty() { Err(fault) } else { Ok(()) }
+        if !going.is_empty() {
+            return Ok(());
+        }
+        self.failed(run.checkpoint(), end);
+        Err(fault)
     }
 
-    /// Checks the end of the run.
+    /// Checks the end of the run. Writes the place that was found in order last, if there is a fault.
     pub(crate) fn finish_run(
         &mut self,
         before: Option<&Checkpoint<R, N>>,
         run: &dyn AnyRun<R, N>,
-    ) -> Result<(), IntegrationError<R, N>> {
+        end: &mut Checkpoint<R, N>,
+    ) -> Result<(), Cause> {
         let mut judged = Ok(());
         let (step, now) = (last(before.filter(|_| self.fixed), run), place(run.checkpoint()));
         self.finish(run.system(), step, now, Mask::all(1), |_, cause, _| judged = Err(cause));
-        judged.map_err(|cause| self.failed(run.checkpoint(), cause))
+        if judged.is_err() {
+            self.failed(run.checkpoint(), end);
+        }
+        judged
     }
 
-    /// The error of the run, which cannot go on from where it stands.
-    pub(crate) fn stop_run(&mut self, run: &dyn AnyRun<R, N>, cause: Cause) -> IntegrationError<R, N> {
+    /// Writes the end of the run, which cannot go on from where it stands, and returns the cause.
+    pub(crate) fn stop_run(
+        &mut self,
+        run: &dyn AnyRun<R, N>,
+        cause: Cause,
+        end: &mut Checkpoint<R, N>,
+    ) -> Cause {
         let (system, now) = (run.system(), place(run.checkpoint()));
-        let mut error = run.checkpoint().failed(cause);
+        let mut found = cause;
+        *end = *run.checkpoint();
         self.stopped(system, now, Mask::all(1), cause, |_, cause, good| {
-            error = IntegrationError { time: good.time, state: *good.state, cause, ..error };
+            found = cause;
+            (end.time, end.state) = (good.time, *good.state);
         });
-        if error.cause == Cause::NotFinite && error.statistics.accepted == 0 && all_finite(&error.state) {
+        if found == Cause::NotFinite && end.statistics.accepted == 0 && all_finite(&end.state) {
             // What is not finite at a start that is so, is so because of a function that vanishes there, if there is one.
             let (known, _) = Known::new(system, &self.guard, now);
             if let Some(function) = known.vanishing() {
-                let (found, limit) = (error.time.to_f64(), self.guard.singularity);
-                error.cause = Cause::ChartSingularity { found, function, distance: 0.0, limit };
+                let limit = self.guard.singularity;
+                return Cause::ChartSingularity { found: end.time.to_f64(), function, distance: 0.0, limit };
             }
         }
-        error
+        found
     }
 
-    /// The error at the place that was found in order last, with the work done since then counted.
+    /// Writes the place that was found in order last, with the work done since then counted.
     #[cold]
-    pub(crate) fn failed(&self, reached: &Checkpoint<R, N>, cause: Cause) -> IntegrationError<R, N> {
-        let (time, state) = self.good;
-        IntegrationError { time, state, cause, statistics: reached.statistics }
+    fn failed(&self, reached: &Checkpoint<R, N>, end: &mut Checkpoint<R, N>) {
+        (end.time, end.state) = self.good;
+        end.statistics = reached.statistics;
     }
 }
 

@@ -29,8 +29,12 @@ macro_rules! gauss {
             type Memory = Memory<R, N, $stages>;
             const EVALUATIONS: u32 = 4 * $stages;
 
-            fn begin(&self) -> (R, Self::Memory) {
-                (self.step, Memory::new())
+            fn step_size(&self) -> R {
+                self.step
+            }
+
+            fn memory(&self) -> Self::Memory {
+                Memory::new()
             }
 
             fn step(&self, next: NextStep<'_, R, S, Self::Memory, N>) -> Result<[R; N], Cause> {
