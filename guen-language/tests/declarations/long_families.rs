@@ -62,6 +62,66 @@ fn a_long_chain_costs_for_each_link_what_a_short_one_costs() {
     assert!(long.report.lines().count() < 400 && !short.report.contains(" more\n"), "{}", long.report);
 }
 
+/// Between the sizes from which equations are put up over the links, and from which they are not written out.
+#[test]
+fn equations_of_a_chain_grow_with_the_square_of_its_links() {
+    let [half, whole] = [30, 60].map(|n| size(&chain(n)));
+    assert!(half.has_mass && whole.has_mass);
+    // Multiplied out, an entry of the mass matrix has a term for each link behind both: 5.6 times.
+    assert!(whole.bytes < 4.0 * half.bytes, "{} {}", half.bytes, whole.bytes);
+    assert!(whole.operations < 2.1 * half.operations, "{} {}", half.operations, whole.operations);
+}
+
+/// The momenta are the derivatives of the energy: of links behind a support that is moved, in parameters that mix, of a tree, in space.
+#[test]
+fn momenta_over_the_links_are_slopes_of_the_energy() {
+    let chain = |constants: &str, start: &str, parameters: &str, before: &str| {
+        format!(
+            "pub system Links {{
+                count n = 26;
+                constants {{ m[n] > 0, l > 0, g = 9.81 {constants} }}
+                coordinates {{ q[n] }}
+                parameters {{ {parameters} }}
+                let p[0] = {start} + l*vec(sin(q[0]), -cos(q[0]));
+                for i in 1..n {{ let p[i] = p[{before}] + l*vec(sin(q[i]), -cos(q[i])); }}
+                particles {{ for i in 0..n {{ m[i] at p[i]; }} }}
+                gravity = vec(0, -g);
+            }}"
+        )
+    };
+    let mixed = "w[0] = dot(q[0]); for i in 1..n { w[i] = 2*dot(q[i]) - dot(q[i-1])/3; }";
+    let space = "pub system Links {
+        count n = 13;
+        constants { m > 0, l > 0, k >= 0 }
+        coordinates { a[n], b[n] }
+        let p[0] = vec(cos(a[0])*cos(b[0]), sin(a[0])*cos(b[0]), sin(b[0]));
+        for i in 1..n { let p[i] = p[i-1] + l*vec(cos(a[i])*cos(b[i]), sin(a[i])*cos(b[i]), sin(b[i])); }
+        particles { for i in 0..n { m at p[i]; } }
+        potential_energy = k*inner(p[n-1], p[n-1])/2;
+    }";
+    for text in [
+        chain("", "vec(0, 0)", "", "i-1"),
+        chain(", a, W", "vec(a*sin(W*t), 0)", "", "i-1"),
+        chain("", "vec(0, 0)", mixed, "i-1"),
+        chain("", "vec(0, 0)", "", "(i-1)/2"),
+        space.to_owned(),
+    ] {
+        let (parsed, _) = parse::parse(text.parse().unwrap());
+        let parsed = parsed.unwrap();
+        let (derived, report) = collect(|faults| derive::derive(model::resolve(&parsed, faults)?, faults));
+        assert!(report.is_empty(), "{report}");
+        let mut derived = derived.unwrap();
+        let (bench, derivation) = (&mut derived.model.bench, &derived.system.derivation);
+        assert!(derivation.is_by("constraint forces"), "{text}");
+        assert_eq!(derivation.energies.momenta.len(), 26);
+        for (momentum, eta) in derivation.energies.momenta.iter().zip(&derivation.system.etas) {
+            let slope = bench.partial(derivation.energies.kinetic, *eta);
+            let difference = bench.graph.sub(*momentum, slope);
+            assert!(bench.vanishes(difference), "{text}");
+        }
+    }
+}
+
 /// A chain that is written out entry by entry against the same chain by a loop.
 #[test]
 fn a_long_chain_by_hand_is_the_same() {

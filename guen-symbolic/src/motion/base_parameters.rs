@@ -16,6 +16,11 @@ use crate::workbench::Workbench;
 
 type Matrix = Vec<Vec<Rational>>;
 
+/// Whether some base angle turns with several parameters, so that its rate is another parameter.
+pub(super) fn are_others(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -> bool {
+    Change::new(bench, system, frame).is_some()
+}
+
 /// Other parameters, `zeta = J eta`.
 struct Change {
     to: Matrix,

@@ -93,15 +93,16 @@ impl Derivation {
         let generalised_forces = generalised_forces(bench, &system, &mut frame, &mut partials);
 
         let mut stated = Stated::new(bench, &system, &mut frame, &mut partials, &terms, &generalised_forces)?;
-        let Found { equations, mut solution, mut formulations, declined, mut symmetry } = formulations::walk(
-            bench,
-            &system,
-            &mut frame,
-            &mut partials,
-            &terms,
-            &generalised_forces,
-            &mut stated,
-        )?;
+        let Found { equations, momenta, mut solution, mut formulations, declined, mut symmetry } =
+            formulations::walk(
+                bench,
+                &system,
+                &mut frame,
+                &mut partials,
+                &terms,
+                &generalised_forces,
+                &mut stated,
+            )?;
         let (constrained, freed) = (stated.constrained, stated.freed);
         // What was taken to differ from zero is looked at when a system is prepared.
         solution.constant_pivots.extend(indispensable);
@@ -112,8 +113,9 @@ impl Derivation {
         };
         affordable(bench)?;
         let class = classify(bench, &system, &mut frame, &closure);
-        let momenta = if equations.mass.len() == l { 0..n } else { 0..0 };
-        let mut energies = Energies::new(bench, &system, &mut frame, &mut partials, &terms, momenta);
+        let wanted = if momenta.is_none() { 0..n } else { 0..0 };
+        let mut energies = Energies::new(bench, &system, &mut frame, &mut partials, &terms, wanted);
+        energies.momenta.extend(momenta.into_iter().flatten());
         for e in energies.momenta.iter_mut().chain([&mut energies.kinetic, &mut energies.integral]) {
             *e = symmetry.shorter(bench, *e);
         }

@@ -125,6 +125,8 @@ struct Search<'a> {
 pub(super) struct Found {
     /// The equations for `s = 1..l`, generalised forces included.
     pub(super) equations: Equations,
+    /// The momenta, where they come with the equations.
+    pub(super) momenta: Option<Vec<ExprId>>,
     /// The solved accelerations.
     pub(super) solution: Solution,
     /// All rates that were found, those of the solution first.
@@ -146,12 +148,13 @@ pub(super) fn walk(
     stated: &mut Stated,
 ) -> Result<Found, DerivationError> {
     let (symmetry, shorter) = Default::default();
-    if let Some(Alone { name, rates, solution }) = stated.alone.take() {
+    if let Some(Alone { name, rates, solution, equations, momenta }) = stated.alone.take() {
         let others = FORMULATIONS.iter().filter(|formulation| formulation.name != name);
-        let declined = others.map(|other| (other.name, "the equations are too many to be written out"));
+        let declined = others.map(|other| (other.name, "the parameters are many"));
         frame.velocities = rates[..frame.velocities.len()].to_vec();
         return Ok(Found {
-            equations: Equations { mass: Vec::new(), forces: Vec::new() },
+            equations,
+            momenta: Some(momenta),
             solution,
             formulations: vec![Formulated { name, rates, is_by_spins: false }],
             declined: declined.collect(),
@@ -228,7 +231,7 @@ pub(super) fn walk(
         declined.push((MULTIPLIED_OUT, LEFT_OUT));
     }
     frame.velocities = formulations[0].rates[..frame.velocities.len()].to_vec();
-    Ok(Found { equations, solution, formulations, declined, symmetry })
+    Ok(Found { equations, momenta: None, solution, formulations, declined, symmetry })
 }
 
 impl Search<'_> {

@@ -1,20 +1,22 @@
 //! Rates of systems with so many parameters that their equations are not written out.
 //!
-//! A mass matrix has an entry for each pair of parameters, and so have the equations that are multiplied out of it. Beyond
-//! [`WRITTEN_OUT_PARAMETERS`] none is made: the rates come from the bodies, or from the reactions between the velocity forms as unknowns, with
-//! work that grows with the pairs of forms and parameters that meet. They are proved like all others.
+//! A mass matrix has an entry for each pair of parameters, and equations that are multiplied out have a term for each body behind
+//! both. Beyond [`STATED_PARAMETERS`] the rates do not come from there: they come from the reactions between the velocity forms as unknowns,
+//! or from the bodies, with work that grows with the pairs of forms and parameters that meet. The equations are put up over the tree of
+//! the forms, and beyond [`WRITTEN_OUT_PARAMETERS`] not at all. Rates and equations are proved like all others.
 
 use std::collections::BTreeMap;
 
+use super::composed::{self, Composed};
 use super::constraint_forces::{self, Differences, Edge};
 use super::projection::{Curl, Square, squares};
 use super::proof::Definition;
 use super::sparse::Vector;
 use super::velocity_forms::VelocityPartials;
-use super::{DerivationError, Frame, KineticTerm, Mechanics, Solution, multibody};
+use super::{DerivationError, Equations, Frame, KineticTerm, Mechanics, Solution, multibody};
 use crate::algebra::{ExprId, FastMap, Node, Rational, gradient};
 use crate::motion::thresholds::{
-    DIAGONAL_PARAMETERS, FORCES_PER_PARAMETER, MOST_FORMS, WRITTEN_OUT_PARAMETERS,
+    DIAGONAL_PARAMETERS, FORCES_PER_PARAMETER, MOST_FORMS, STATED_PARAMETERS, WRITTEN_OUT_PARAMETERS,
 };
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
@@ -27,6 +29,9 @@ pub(super) struct Alone {
     pub(super) rates: Vec<ExprId>,
     /// The accelerations among them.
     pub(super) solution: Solution,
+    /// The equations with the generalised forces, and the momenta; none of those that are not written out.
+    pub(super) equations: Equations,
+    pub(super) momenta: Vec<ExprId>,
 }
 
 /// Whether a system has no constraints and more parameters than a mass matrix is written out for.
@@ -35,7 +40,7 @@ pub(super) fn has_many_parameters(system: &Mechanics) -> bool {
     forms.degrees > WRITTEN_OUT_PARAMETERS && forms.len() == forms.degrees
 }
 
-/// Whether the equations of a system are not written out: its parameters are many, and they are coupled or very many.
+/// Whether rates are looked for without the equations: the parameters are many, and they are coupled or very many.
 pub(super) fn is_large(bench: &Workbench, system: &Mechanics, terms: &[KineticTerm]) -> bool {
     let forms = &system.forms.forms;
     let graph = &bench.graph;
@@ -44,7 +49,10 @@ pub(super) fn is_large(bench: &Workbench, system: &Mechanics, terms: &[KineticTe
     let uncoupled = velocities.all(|u| matches!(graph.node(*u), Node::Symbol(_)))
         && terms.iter().all(|term| term.forms.len() != 2 || term.forms[0] == term.forms[1])
         && forms.iter().all(|form| is_single(&form.row));
-    has_many_parameters(system) && (!uncoupled || forms.len() > DIAGONAL_PARAMETERS)
+    let turns = system.structure.frames().len() > 1;
+    let many = if turns { WRITTEN_OUT_PARAMETERS } else { STATED_PARAMETERS };
+    let is_free = forms.len() == system.forms.degrees;
+    is_free && forms.len() > many && (!uncoupled || forms.len() > DIAGONAL_PARAMETERS)
 }
 
 /// The proved rates of a large system: by its bodies, where joints turn, else the cheapest of those without a mass matrix. None where
@@ -63,32 +71,48 @@ pub(super) fn rates(
     {
         let accelerations = bodies.rates[frame.velocities.len()..].to_vec();
         let solution = Solution::of_pivots(bench, accelerations, &bodies.pivots);
-        found.push(Alone { name: "bodies", rates: bodies.rates, solution });
+        found.push(("bodies", bodies.rates, solution));
     }
+    let l = system.forms.degrees;
+    let etas = &system.etas[..l];
+    let mut composed = None;
     if found.is_empty()
         && let Some(differences) = differences(bench, (system, frame), partials, terms)
     {
         if let Some(solution) = uncoupled(bench, &differences, generalised_forces) {
             let rates = [&frame.velocities[..], &solution.accelerations].concat();
-            found.push(Alone { name: "multiplied out", rates, solution });
+            found.push(("multiplied out", rates, solution));
         }
-        let l = system.forms.degrees;
-        let theirs = FORCES_PER_PARAMETER * l;
+        if l <= WRITTEN_OUT_PARAMETERS {
+            composed = composed::equations(bench, frame, &differences, etas);
+        }
+        let solved = composed.as_ref().map(|own| constraint_forces::dense_cost(bench, &own.equations.mass));
+        let theirs = solved.unwrap_or(usize::MAX).min(FORCES_PER_PARAMETER * l);
         // Each constraint force costs as much as a parameter at least.
-        let by_forces = (differences.rows.len() <= MOST_FORMS * l).then(|| {
-            constraint_forces::solve(bench, frame, differences, theirs, &system.etas[..l], generalised_forces)
-        });
+        let by_forces = (differences.rows.len() <= MOST_FORMS * l)
+            .then(|| constraint_forces::solve(bench, frame, differences, theirs, etas, generalised_forces));
         if let Some(by_forces) = by_forces.flatten() {
             let rates = [&frame.velocities[..], &by_forces.accelerations].concat();
             let solution = Solution::known(bench, by_forces.accelerations, &by_forces.divisors);
-            found.push(Alone { name: "constraint forces", rates, solution });
+            found.push(("constraint forces", rates, solution));
         }
     }
-    found.sort_by_key(|alone| weighted_cost(&bench.graph, &alone.rates));
-    for alone in found {
-        if definition.is_solved_by(bench, (system, frame), &alone.rates)? {
-            return Ok(Some(alone));
+    found.sort_by_key(|(_, rates, _)| weighted_cost(&bench.graph, rates));
+    for (name, rates, solution) in found {
+        if !definition.is_solved_by(bench, (system, frame), &rates)? {
+            continue;
         }
+        if l > WRITTEN_OUT_PARAMETERS {
+            let equations = Equations { mass: Vec::new(), forces: Vec::new() };
+            return Ok(Some(Alone { name, rates, solution, equations, momenta: Vec::new() }));
+        }
+        if let Some(Composed { equations, momenta }) = composed
+            && definition.is(bench, (system, frame), &equations, true)?
+        {
+            let equations = equations.driven(bench, generalised_forces);
+            return Ok(Some(Alone { name, rates, solution, equations, momenta }));
+        }
+        return Ok(None);
     }
     Ok(None)
 }
@@ -176,7 +200,11 @@ fn differences(
     }
     let masses: Vec<ExprId> = squares.iter().map(|square| square.mass).collect();
     let rest = potential_forces(bench, system, frame);
-    let relative = as_written(bench, &squares);
+    // Sums that were made one have lost what they stood behind.
+    let relative = match bench.graph.nests_sums() {
+        true => as_written(bench, &squares),
+        false => squares.iter().map(|square| Relative { edge: None, terms: square.form }).collect(),
+    };
     let lists: Vec<ExprId> = relative.iter().map(|form| form.terms).collect();
     let (rows, drifts) = along_operators(bench, (system, frame), partials, (&squares, &lists))?;
     let edges = relative.into_iter().map(|form| form.edge).collect();

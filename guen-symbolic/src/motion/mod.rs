@@ -3,6 +3,7 @@
 mod base_parameters;
 mod body_axes;
 mod cancellation;
+mod composed;
 mod constraint_forces;
 mod declaration;
 mod dependence;

@@ -1,7 +1,7 @@
 //! The equations of motion as they are stated: by the definition and by projection, compared; of bodies, as they were put up at
 //! the root of their tree, where that is much shorter.
 
-use super::base_parameters::InBaseParameters;
+use super::base_parameters::{self, InBaseParameters};
 use super::body_axes::InBodyAxes;
 use super::equations::forms;
 use super::fault::{DerivationError, affordable};
@@ -66,7 +66,10 @@ impl Stated {
         generalised_forces: &[ExprId],
     ) -> Result<Self, DerivationError> {
         affordable(bench)?;
-        if large::is_large(bench, system, terms) {
+        // In relative angles a form has all joints before it: their equations come from the rates of the base angles.
+        if large::is_large(bench, system, terms)
+            && (large::has_many_parameters(system) || !base_parameters::are_others(bench, system, frame))
+        {
             let mut definition = Definition::new(bench, system, generalised_forces);
             let of = (system, &mut *frame);
             let found = large::rates(bench, of, partials, terms, generalised_forces, &mut definition)?;

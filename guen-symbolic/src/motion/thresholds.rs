@@ -5,6 +5,10 @@
 /// The number of parameters, and of frames that turn, from which on equations are not multiplied out.
 pub(in crate::motion) const MULTIPLIED_PARAMETERS: usize = 6;
 
+/// The number of parameters of a system without constraints and without bodies that turn above which its rates are looked for without
+/// its equations.
+pub(in crate::motion) const STATED_PARAMETERS: usize = 24;
+
 /// The number of parameters of a system without constraints above which its equations are not written out: their mass matrix
 /// has an entry for each pair.
 pub const WRITTEN_OUT_PARAMETERS: usize = 64;
