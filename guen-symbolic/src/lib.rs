@@ -31,8 +31,8 @@ pub use geometry::{
 pub use motion::{
     BodyNode, COUPLED_COORDINATES, Class, Component, Dependence, Derivation, DerivationError, Energies,
     Equations, FirstOrderState, Force, FormShape, Formulated, Frame, FrameId, FrameNode, Holonomic,
-    KineticTerm, Mechanics, Motion, MotionSymbol, Multibody, NotQuadratic, Place, RigidBody, Solution,
-    SystemGraph, Turn, Velocity, VelocityForm, VelocityPartials, WRITTEN_OUT_PARAMETERS, decompose,
+    KineticTerm, Mechanics, Motion, MotionSymbol, Multibody, NotQuadratic, Place, REFUTED, RigidBody,
+    Solution, SystemGraph, Turn, Velocity, VelocityForm, VelocityPartials, WRITTEN_OUT_PARAMETERS, decompose,
     elimination_text, equations_by_definition, formulation_names,
 };
 pub use normal::{Limits, normal_coefficients, normal_form};

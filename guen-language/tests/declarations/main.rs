@@ -16,6 +16,7 @@ mod hints;
 mod imported;
 mod imports;
 mod large_costs;
+mod legs;
 mod limbs;
 mod long_families;
 mod modes_of_scenes;

@@ -9,7 +9,7 @@ use crate::hybrid::place::{Fired, Place};
 use crate::hybrid::resting::Resting;
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::transition::{Facts, Transition, TransitionKind};
-use crate::hybrid::watched::Sides;
+use crate::hybrid::watched::{Function, Sides};
 use crate::steppers::guard::part::{Failed, PartWatch};
 use crate::steppers::{Cause, Checkpoint, Interpolant, Method, Setting, Statistics, StepperRun};
 
@@ -370,6 +370,7 @@ where
                 }
             };
             let mut from = before.time;
+            let stop = in_mode.stop_within(&before, &after);
             loop {
                 let sides = self.place.sides;
                 let mut state_at = at;
@@ -382,7 +383,18 @@ where
                     first,
                     at: &mut state_at,
                 };
-                let Some(found) = step.first() else { break };
+                let found = step.first();
+                if let Some((c, t, state)) = stop
+                    && found.is_none_or(|found| t <= found.t)
+                {
+                    self.samples_before(&in_mode, t, &at);
+                    watch.finish(&in_mode, t, &state).map_err(|failed| self.back_to(failed))?;
+                    self.step = Some(after.time - before.time);
+                    (self.place.t, self.place.state) = (t, state);
+                    let found = Found { function: Function::Slip(c), t, does: Does::Falls };
+                    return Ok(Part::Fired(self.fired(found, 4.0 * f64::EPSILON * t.abs())));
+                }
+                let Some(found) = found else { break };
                 if let (Does::IsBelow(gap), Some(c)) = (found.does, found.function.element()) {
                     return Err(HybridCause::Penetrating { contact: H::ELEMENTS[c].name, gap });
                 }

@@ -2,9 +2,11 @@
 
 use crate::hybrid::filled::filled;
 use crate::hybrid::in_mode::InMode;
+use crate::hybrid::mode::ElementState;
 use crate::hybrid::mode_rows::Leaning;
 use crate::hybrid::select::unit;
 use crate::hybrid::system::HybridSystem;
+use crate::steppers::Checkpoint;
 
 impl<H, const N: usize, const W: usize, const C: usize, const S: usize> InMode<H, N, W, C, S>
 where
@@ -33,6 +35,53 @@ where
             end = straight.after(t, state, left);
         }
         (t + left, end)
+    }
+
+    /// The first spatial slip that ends within a step which goes on past that end, with the time and state of the end. A step does that
+    /// where the slip is as small as the error that the step may have, and where the step has a fixed length.
+    pub(super) fn stop_within(
+        &self,
+        before: &Checkpoint<f64, N>,
+        after: &Checkpoint<f64, N>,
+    ) -> Option<(usize, f64, [f64; N])> {
+        /// The part of the slip that may be left in its direction at the end of the step, and where its end was found.
+        const GONE: f64 = 0.5;
+        const FOUND: f64 = 1e-6;
+
+        if !(0..C).any(|c| self.mode.0[c] == ElementState::Slip) {
+            return None;
+        }
+        let rates = self.system.row_rates(before.time, &before.state);
+        let later = self.system.row_rates(after.time, &after.state);
+        let length = after.time - before.time;
+        let mut earliest: Option<(usize, f64, [f64; N])> = None;
+        for (c, element) in H::ELEMENTS.iter().enumerate() {
+            let &[first, second] = element.tangential else { continue };
+            if self.mode.0[c] != ElementState::Slip {
+                continue;
+            }
+            let Some(direction) = unit([rates[first], rates[second]]) else { continue };
+            let along = |rates: &[f64; W]| direction[0] * rates[first] + direction[1] * rates[second];
+            let slip = along(&rates);
+            // Most steps of a slip are far from its end.
+            if along(&later) > GONE * slip {
+                continue;
+            }
+            let change = along(&self.reactions(before.time, &before.state).row_accelerations());
+            if !(change < 0.0 && slip < -change * length) {
+                continue;
+            }
+            let (t, state) = self.stopped(c, before.time, &before.state);
+            let left = along(&self.system.row_rates(t, &state));
+            if left.abs() <= FOUND * slip
+                && before.time < t
+                && t <= after.time
+                && earliest.is_none_or(|(_, sooner, _)| t < sooner)
+            {
+                earliest = Some((c, t, state));
+            }
+        }
+        earliest
     }
 
     /// One step of the classical method of order four.

@@ -45,7 +45,7 @@ pub use derivation::{Class, Derivation};
 pub use energy::Energies;
 pub use equations::Equations;
 pub use fault::DerivationError;
-pub use formulations::{Formulated, formulation_names};
+pub use formulations::{Formulated, REFUTED, formulation_names};
 pub use frame::Frame;
 pub use graph::{
     BodyNode, Component, FormShape, FrameId, FrameNode, Motion, Place, SystemGraph, Turn, Velocity,

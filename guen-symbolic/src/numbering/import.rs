@@ -27,7 +27,10 @@ impl Numbering {
     fn numbered(&mut self, bench: &mut Workbench, e: ExprId) -> Num {
         let roles = bench.graph.roles(e);
         let constant = roles.is_constant();
-        let (moves, signs) = (roles.meets(MOVING), bench.zero.has_signs(&bench.graph, e));
+        let on_manifold = self.point.1;
+        let signs = bench.zero.has_signs(&bench.graph, e)
+            || on_manifold && bench.zero.has_roots_of_squares(&bench.graph, e);
+        let moves = roles.meets(MOVING);
         let residue = if moves || signs { None } else { self.at_point(bench, e) };
         if let Some(residue) = residue {
             if residue == 0 {
@@ -64,7 +67,7 @@ impl Numbering {
                 }
                 self.div(above, below)
             }
-            Node::Function(Function::Root(2), x) => {
+            Node::Function(Function::Root(2), x) if moves || !signs => {
                 let x = self.import(bench, x);
                 self.sqrt(x)
             }

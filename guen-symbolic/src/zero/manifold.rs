@@ -16,7 +16,9 @@ use f256::f256;
 const LARGEST_BLOCK: usize = 3;
 /// Sets of symbols that are tried for one set of equations.
 const LARGEST_SEARCH: usize = 200;
-/// Draws of a whole point, and of the symbols of one block, before there is none.
+/// Draws of a whole point before there is none: of eight lengths that are roots of what all have in common, one in 256 has all.
+const DRAWS: u64 = 1024;
+/// Draws of the symbols of one block before the point has none.
 const REDRAWS: u64 = 64;
 /// Random points that are projected before there is no real point.
 const PROJECTIONS: u64 = 8;
@@ -88,6 +90,11 @@ impl Manifold {
         manifold
     }
 
+    /// Whether an expression is part of a constraint.
+    pub(super) fn has(&self, graph: &Graph, e: ExprId) -> bool {
+        graph.reachable(&self.equations, |_| false).contains(&e)
+    }
+
     /// Whether points modulo the prime can be found.
     pub(super) fn is_solved(&self) -> bool {
         self.blocks.is_some()
@@ -120,7 +127,7 @@ impl Manifold {
     /// The point of a number modulo the prime.
     pub(super) fn sample(&self, graph: &Graph, table: &Table, number: u64) -> Option<Sample> {
         let blocks = self.blocks.as_ref()?;
-        (0..REDRAWS).find_map(|attempt| {
+        (0..DRAWS).find_map(|attempt| {
             let seed = field::mix(field::mix(number ^ 0x6d61_6e69) ^ attempt);
             let mut fixed = FastMap::default();
             for block in blocks {

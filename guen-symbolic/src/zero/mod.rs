@@ -27,7 +27,7 @@ pub(crate) use real::apply;
 pub use real::{Real, evaluate, evaluate_f64};
 pub use redundant::Redundant;
 
-use crate::algebra::{ExprId, FastMap, Flow, Graph, Node};
+use crate::algebra::{ExprId, FastMap, Flow, Function, Graph, Node};
 
 /// The answer to a question that cannot always be decided.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -93,6 +93,8 @@ struct Domain {
     generation: u32,
     reals: Vec<Option<RealPoint>>,
     verdicts: FastMap<ExprId, Verdict>,
+    /// Whether roots are those of squares.
+    roots_of_squares: FastMap<ExprId, bool>,
 }
 
 /// The verdict of the points modulo the prime.
@@ -250,6 +252,51 @@ impl ZeroTest {
     pub(crate) fn has_signs(&mut self, g: &Graph, e: ExprId) -> bool {
         self.table.scan(g);
         self.table.flags[e.index()] & SIGN != 0
+    }
+
+    /// Whether roots occur that on the manifold are something or its opposite, as `sqrt(x^2 + y^2)` is where `x^2 + y^2 = l^2`: at one
+    /// point they tell nothing of others. A root that a constraint has is what that says it is.
+    pub(crate) fn has_roots_of_squares(&mut self, g: &Graph, e: ExprId) -> bool {
+        self.table.scan(g);
+        let has_roots = |flags: &[table::Flags], e: ExprId| flags[e.index()] & ROOT != 0;
+        if self.manifold.is_none() || !has_roots(&self.table.flags, e) {
+            return false;
+        }
+        let (flags, known) = (&self.table.flags, &self.bound.roots_of_squares);
+        for id in g.reachable(&[e], |id| !has_roots(flags, id) || known.get(&id).is_some()) {
+            let known = &self.bound.roots_of_squares;
+            let below = g.children(id).iter().any(|child| known.get(child) == Some(&true));
+            let found = below
+                || match g.node(id) {
+                    Node::Function(Function::Root(2), radicand) => self.is_square(g, id, *radicand),
+                    _ => false,
+                };
+            self.bound.roots_of_squares.insert(id, found);
+        }
+        self.bound.roots_of_squares.get(&e) == Some(&true)
+    }
+
+    /// Whether a radicand is a square at all points of the manifold, though no constraint has its root.
+    fn is_square(&mut self, g: &Graph, root: ExprId, radicand: ExprId) -> bool {
+        /// Points at which another radicand is a square with a probability of 1 in 4096.
+        const SQUARES: usize = 12;
+        if self.manifold.as_ref().is_some_and(|manifold| manifold.has(g, root)) {
+            return false;
+        }
+        let mut squares = 0;
+        for number in 0..REDRAWS {
+            let sample = self.fresh(g, number, true);
+            let value = sample.and_then(|mut sample| sample.value(g, &self.table, radicand));
+            match value.map(field::sqrt) {
+                Some(None) => return false,
+                Some(Some(_)) => squares += 1,
+                None => {}
+            }
+            if squares == SQUARES {
+                return true;
+            }
+        }
+        false
     }
 
     /// Changes when the values at all points do.

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use guen_language::derive::{Derived, Level, derive};
 use guen_language::diagnostics::collect;
 use guen_language::{model, parse};
-use guen_symbolic::{SymbolId, evaluate_function, evaluate_prepare, formulation_names};
+use guen_symbolic::{REFUTED, SymbolId, evaluate_function, evaluate_prepare, formulation_names};
 
 /// How many a test draws: so many in every run, and more with `GUEN_ROUNDS`, as `.ci/run` asks for them in an optimised build.
 pub fn rounds(quick: u64) -> u64 {
@@ -50,7 +50,10 @@ pub fn derived_without<T>(
         derive(model, faults)
     });
     assert!(report.is_empty(), "{}\n{text}", report.to_compile_errors());
-    look(&derived.expect("a derivation"))
+    let derived = derived.expect("a derivation");
+    let declined = &derived.system.derivation.declined;
+    assert!(declined.iter().all(|(_, reason)| *reason != REFUTED), "{declined:?}\n{text}");
+    look(&derived)
 }
 
 /// The messages about a declaration whose grammar is right.

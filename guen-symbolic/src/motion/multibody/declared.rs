@@ -115,6 +115,9 @@ impl Maker<'_> {
     /// Numbers the lengths of vectors where these are short.
     fn lengths(&mut self) {
         for (length, place) in &self.system.structure.lengths {
+            if self.bench.zero.has_roots_of_squares(&self.bench.graph, *length) {
+                continue;
+            }
             let terms = self.tree.terms(self.bench, self.numbers, place);
             let axes = terms.iter().map(|(axes, _)| *axes).max().unwrap_or(0);
             let vector = self.sum_in(axes, &terms);
