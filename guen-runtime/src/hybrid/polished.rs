@@ -89,10 +89,13 @@ where
         let watched = in_mode.watched_along(sides, *t, state);
         let mut fired = Fired::default();
         fired.add(found.function);
-        // Where spatial slip ends its direction turns without bounds, and with it the rates of reactions: they say nothing there.
+        // Where spatial slip ends its direction turns without bounds, and with it the reactions and their rates: they say nothing there.
         let ends_slip = matches!(found.function, Function::Slip(c) if H::ELEMENTS[c].tangential.len() == 2);
         let bracket = if ends_slip { 0.0 } else { bracket };
         for function in Function::all(C, S).filter(|function| *function != found.function) {
+            if ends_slip && function.is_of_reactions() {
+                continue;
+            }
             let Some(value) = watched.get(function) else { continue };
             if let Function::Gap(c) = function
                 && !in_mode.mode.0[c].is_closed()

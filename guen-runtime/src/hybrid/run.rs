@@ -370,7 +370,7 @@ where
                 }
             };
             let mut from = before.time;
-            let stop = in_mode.stop_within(&before, &after);
+            let stop = in_mode.stop_within(&self.place.sides.slow, &before, at, &after);
             loop {
                 let sides = self.place.sides;
                 let mut state_at = at;

@@ -69,6 +69,11 @@ impl Function {
             .chain([Self::Regularity, Self::Shared])
     }
 
+    /// Whether the value depends on the reactions.
+    pub(super) fn is_of_reactions(self) -> bool {
+        matches!(self, Self::Normal(_) | Self::Cone(..) | Self::Regularity | Self::Shared)
+    }
+
     /// The element that the function belongs to.
     pub(super) fn element(self) -> Option<usize> {
         match self {
