@@ -22,5 +22,6 @@ mod resets_in_scenes;
 mod seen;
 mod several_modes;
 mod simulated;
+mod slow_slips;
 mod states;
 mod unaware;

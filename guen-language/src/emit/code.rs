@@ -22,6 +22,16 @@ pub(super) trait Loads {
     fn functions(&self) -> usize;
 }
 
+/// The way in which the parts of a long body stand.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Parts {
+    /// As blocks: a caller with the registers of lanes has all of them.
+    Blocks,
+    /// As closures, each of which has a frame of its own in a build without optimisation. What three derivatives with bounds of their
+    /// roundings are computed in is so long that the frame of 600 statements takes 2.7 MB.
+    Closures,
+}
+
 /// The body of a function: its statements, then its results as an array. Values are called `v0`, `v1`, ..; loads, and
 /// what one operation alone uses, stand where they are used. `length` says how long an array is that the function takes.
 ///
@@ -32,6 +42,7 @@ pub(super) fn body(
     instructions: &[Instruction],
     outputs: &[Value],
     loads: &dyn Loads,
+    parts: Parts,
     length: impl Fn(&str) -> usize,
 ) -> String {
     const BLOCK_STATEMENTS: usize = 100;
@@ -89,9 +100,13 @@ pub(super) fn body(
                 .map(|value| format!("v{},", value.index()))
                 .collect();
             let handed = handed.concat();
-            let _ = write!(writer.text, "let ({handed}) = {{");
+            let (open, close) = match parts {
+                Parts::Blocks => ("", ""),
+                Parts::Closures => ("(|| ", ")()"),
+            };
+            let _ = write!(writer.text, "let ({handed}) = {open}{{");
             writer.statements(block);
-            let _ = write!(writer.text, "({handed}) }};");
+            let _ = write!(writer.text, "({handed}) }}{close};");
         }
     }
     let names: Vec<&str> = outputs.iter().map(|output| writer.names[output.index()].as_str()).collect();

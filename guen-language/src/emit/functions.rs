@@ -5,7 +5,7 @@ use std::fmt::Write;
 use guen_symbolic::{ArrayIndex, Arrays, ExprId, Programs, SymbolId};
 use proc_macro2::TokenStream;
 
-use super::code::{Loads, SUPPLIED, body};
+use super::code::{Loads, Parts, SUPPLIED, body};
 use super::layout::Layout;
 use super::text::tokens;
 use super::unpacked::indexed;
@@ -186,7 +186,7 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
             let code = (&programs.prepare[..], &programs.prepared[..], programs.prepare_values);
             super::rolled::body(&rolled, code, &places)
         }
-        None => body(&programs.prepare, &programs.prepared, &places, length_of),
+        None => body(&programs.prepare, &programs.prepared, &places, Parts::Blocks, length_of),
     };
     let supplied = match layout.supplied.is_empty() {
         true => String::new(),
@@ -232,7 +232,12 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
                             .to_owned(),
                         other => other.to_owned(),
                     };
-                    body(&program.instructions, &program.outputs, places, |array| length_of(&kind(array)))
+                    // Nothing of contacts is computed in lanes.
+                    let parts =
+                        if program.name == function::FREE_MOTION { Parts::Closures } else { Parts::Blocks };
+                    body(&program.instructions, &program.outputs, places, parts, |array| {
+                        length_of(&kind(array))
+                    })
                 }
             },
         );

@@ -86,7 +86,8 @@ where
 
     /// Chooses the order of elimination anew.
     pub(super) fn choose_pivots(&mut self, t: f64, state: &[f64; N]) {
-        let (free, directions) = self.free_motion(t, state);
+        let free = self.free_motion(t, state);
+        let directions = self.rows().directions(&free.row_rates);
         let (matrix, _) = self.rows().equations(&free, &directions);
         self.pivots = self.pivots.chosen(matrix, &diagonal(&free.delassus));
     }
@@ -133,33 +134,42 @@ where
         held
     }
 
-    /// The free motion in this mode, with the directions of slip.
-    fn free_motion<R: Lift<f64>>(&self, t: R, state: &[R; N]) -> (FreeMotion<R, N, W, C>, [R; W]) {
+    /// The free motion in this mode.
+    fn free_motion<R: Lift<f64>>(&self, t: R, state: &[R; N]) -> FreeMotion<R, N, W, C> {
         let switches = self.lifted_switches(t, state);
         let mut speeds = [R::zero(); C];
         let needed = |(element, state): (&Element, &ElementState)| element.friction_of_speed && state.slips();
         if H::ELEMENTS.iter().zip(&self.mode.0).any(needed) {
             speeds = self.rows().speeds(&self.system.row_rates(t, state));
         }
-        let free = self.system.free_motion(t, state, &switches, &speeds);
-        let directions = self.rows().directions(&free.row_rates);
-        (free, directions)
+        self.system.free_motion(t, state, &switches, &speeds)
     }
 
     /// The reactions in this mode at a time and state. Where rows depend on each other they are those with zero along the rows
     /// that were left out.
     pub fn reactions<R: Lift<f64>>(&self, t: R, state: &[R; N]) -> Reactions<R, N, W, C> {
-        let (free, directions) = self.free_motion(t, state);
+        let free = self.free_motion(t, state);
+        let directions = self.rows().directions(&free.row_rates);
+        let regularity = R::one();
+        let mut motion =
+            Reactions { free, reactions: [R::zero(); W], directions, loads: [R::zero(); C], regularity };
+        self.solve(t, state, &mut motion);
+        motion
+    }
+
+    /// Finds the reactions of a motion.
+    // A function of its own: without optimisation its copies of matrices would stand in the frame below which the system is evaluated.
+    fn solve<R: Lift<f64>>(&self, t: R, state: &[R; N], motion: &mut Reactions<R, N, W, C>) {
         let rows = self.rows();
-        let (matrix, right) = rows.equations(&free, &directions);
-        let (mut reactions, regularity) = self.pivots.solve(matrix, right, &diagonal(&free.delassus));
-        rows.add_friction(&mut reactions, &free.friction, &directions, &free.limits);
-        let mut motion = Reactions { free, reactions, directions, loads: [R::zero(); C], regularity };
+        let (matrix, right) = rows.equations(&motion.free, &motion.directions);
+        let sizes = diagonal(&motion.free.delassus);
+        (motion.reactions, motion.regularity) = self.pivots.solve(matrix, right, &sizes);
+        let FreeMotion { friction, limits, .. } = &motion.free;
+        rows.add_friction(&mut motion.reactions, friction, &motion.directions, limits);
         if H::ELEMENTS.iter().any(|element| element.loaded_by_constraint) {
             let loads = self.system.loads(t, state, &self.lifted_switches(t, state));
-            rows.load(&mut motion, matrix, &loads, H::PAINLEVE_FREE);
+            rows.load(motion, matrix, &loads, H::PAINLEVE_FREE);
         }
-        motion
     }
 
     /// The rates of the state in this mode.

@@ -1,0 +1,76 @@
+//! Slips in space that end: as slow as the error that a step may have, several together, and with room in the stack of a test.
+
+use guen::hybrid::{Hybrid, TransitionKind};
+use guen::mechanical_system;
+use guen::steppers::Dop853;
+
+mechanical_system! {
+    /// A puck whose mass along `x` is not that along `y`, and which drags another one along: its slip turns as it ends.
+    pub system Puck {
+        constants { m > 0 = 1, k = 1, g = 9.81, mu in 0..1 = 0.4 }
+        coordinates { x, y, z, q }
+        particles { m at vec(x, y, z); }
+        kinetic_energy = k*dot(x)^2 + dot(q)^2 + dot(q)*dot(y)/2;
+        gravity = vec(0, 0, -g);
+        contacts { foot: gap = z, slip = vec(dot(x), dot(y)), friction = mu; }
+    }
+}
+
+mechanical_system! {
+    /// A body on three rough feet.
+    pub system Tripod {
+        count n = 3;
+        constants { m > 0 = 1, J[3] > 0 = 0.05, a > 0 = 0.4, h > 0 = 0.3, g = 9.81, mu in 0..1 = 0.4 }
+        coordinates { x, y, z, q0, q1, q2, q3 }
+        holonomic { unit_q: q0^2 + q1^2 + q2^2 + q3^2 = 1; }
+        bodies { top { mass: m, center: vec(x, y, z), inertia: diag(J[0], J[1], J[2]), orientation: quaternion(q0, q1, q2, q3) } }
+        parameters { v = dot(top.center); w = top.angular_velocity; }
+        gravity = vec(0, 0, -g);
+        for i in 0..n {
+            let p[i] = top.center + top.orientation*vec(a*cos(2*pi*i/n), a*sin(2*pi*i/n), -h);
+            let u[i] = top.velocity_at(p[i]);
+        }
+        contacts { for i in 0..n { foot[i]: gap = p[i].z, slip = vec(u[i].x, u[i].y), friction = mu; } }
+    }
+}
+
+#[test]
+fn a_slip_as_slow_as_the_tolerance_sticks() {
+    let puck = Puck::default().prepare().unwrap();
+    // Equal slips end after equal times, divided by their speeds.
+    let reference = 0.517_256_158_6;
+    for tolerance in [1e-4, 1e-6, 1e-9, 1e-12] {
+        for speed in [1e-2, 1e-4, 1e-6, 1e-7, 1e-9] {
+            let start = puck::State { x_rate: 0.6 * speed, y_rate: 0.8 * speed, ..Default::default() };
+            let mut told = Vec::new();
+            let done = Hybrid::new(&puck, 0.0, &start.into())
+                .transitions(&mut |transition| {
+                    told.push((transition.t, transition.kind));
+                    std::ops::ControlFlow::Continue(())
+                })
+                .run(&Dop853::new(tolerance, tolerance), 0.1)
+                .unwrap();
+            let [(t, TransitionKind::Sticks)] = told[..] else { panic!("{tolerance} {speed}: {told:?}") };
+            // A step may be off by the tolerance, which the slip loses in the tolerance over its deceleration.
+            assert!(
+                (t - reference * speed).abs() < 1e-8 * speed + 10.0 * tolerance,
+                "{tolerance} {speed}: {t}"
+            );
+            assert!(done.work.accepted < 100, "{tolerance} {speed}: {:?}", done.work);
+        }
+    }
+}
+
+#[test]
+fn three_feet_that_slide_and_turn_come_to_rest() {
+    let tripod = Tripod { J: [0.05, 0.06, 0.08], ..Tripod::default() }.prepare().unwrap();
+    for (v, w) in [([0.3, 0.1], 0.8), ([0.0, 0.0], 1.0), ([0.02, -0.3], -2.0)] {
+        let start = tripod::State { z: 0.3, q0: 1.0, v_x: v[0], v_y: v[1], w_z: w, ..Default::default() };
+        let motion = tripod.simulation(&start).tolerance(1e-8).run(0.0..0.5).unwrap();
+        assert_eq!(motion.mode_at(0.5), tripod::Mode { foot: [tripod::Foot::Stick; 3] });
+        let energies: Vec<f64> = motion.sample(0.01).map(|(t, state)| tripod.energy(t, &state)).collect();
+        assert!(energies.windows(2).all(|pair| pair[1] < pair[0] + 1e-9));
+        let end = motion.end();
+        assert!([end.v_x, end.v_y, end.w_z].iter().all(|rate| rate.abs() < 1e-9), "{end:?}");
+    }
+}
