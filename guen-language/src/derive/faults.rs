@@ -4,6 +4,8 @@ use guen_symbolic::{
     COUPLED_COORDINATES, Derivation, DerivationError, ExprId, MAX_WORK, SingularForms, Verdict,
 };
 
+use proc_macro2::Span;
+
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{FormKind, Model};
 use crate::names::quoted;
@@ -80,6 +82,42 @@ fn report_singular_mass(model: &mut Model<'_>, motion: &[(usize, Option<ExprId>)
     faults.report(fault.help("give every degree of freedom a mass or an inertia"));
 }
 
+/// The fault of an equation of positions whose rate is a combination of those of others, with these coefficients where they are known.
+fn dependent_position(
+    model: &mut Model<'_>,
+    (form, place): (usize, Span),
+    terms: Option<&[(usize, ExprId)]>,
+    others: &str,
+) -> Fault {
+    let name = model.forms[form].name.clone();
+    let equation = |model: &Model<'_>, form: usize| {
+        model.mechanics.holonomic.iter().find(|row| row.form == form).map(|row| row.equation)
+    };
+    // With constant coefficients the equation itself is this combination, up to a constant.
+    let rest = terms.and_then(|terms| {
+        let mut rest = equation(model, form)?;
+        for (other, c) in terms {
+            if !model.bench.graph.roles(*c).is_constant() {
+                return None;
+            }
+            let other = equation(model, *other)?;
+            let part = model.bench.graph.mul(*c, other);
+            rest = model.bench.graph.sub(rest, part);
+        }
+        Some(model.bench.tidy(rest))
+    });
+    let fault = match rest {
+        Some(rest) if model.bench.vanishes(rest) => {
+            Fault::new(place, format!("`{name}` follows from {others}"))
+        }
+        Some(rest) => Fault::new(place, format!("`{name}` contradicts {others}"))
+            .note(format!("together they require `{} = 0`", short(model, rest))),
+        None => Fault::new(place, format!("`{name}` changes only with {others}"))
+            .note(format!("the rate of `{name}` is a combination of the rates of {others}")),
+    };
+    fault.help(format!("delete `{name}`"))
+}
+
 fn report_singular_forms(model: &mut Model<'_>, singular: SingularForms, faults: &mut Faults) {
     let SingularForms { mut combination, rest } = singular;
     if combination.is_empty() {
@@ -132,6 +170,14 @@ fn report_singular_forms(model: &mut Model<'_>, singular: SingularForms, faults:
             Some((*j, bench.tidy(quotient)))
         })
         .collect();
+    if combination.iter().all(|(j, _)| kind(model, *j) == FormKind::Holonomic) {
+        let fault = dependent_position(model, (last, place), terms.as_deref(), &other_names);
+        let fault = others.last().map(|(j, _)| &model.forms[*j]).into_iter().fold(fault, |fault, other| {
+            fault.note_place(&format!("`{}` is declared", other.name), other.written.span())
+        });
+        faults.report(fault);
+        return;
+    }
     let one = model.bench.graph.one();
     let single = match terms.as_deref() {
         Some([(j, c)]) if *c == one && kind(model, *j) == FormKind::Holonomic => Some(*j),

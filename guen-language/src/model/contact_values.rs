@@ -35,6 +35,13 @@ impl Evaluator<'_> {
             && self.functions.get(word).is_none()
     }
 
+    /// Whether contacts are declared above: one with a fault has no value, but the name of one.
+    pub(super) fn stands_below_contacts(&self, arguments: &[Expression]) -> bool {
+        let names_one = matches!(arguments, [Expression { kind: ExpressionKind::Name(name), .. }]
+            if matches!(self.scope.category(&name.text), Some(Category::Contact)));
+        names_one || !self.contacts.is_empty()
+    }
+
     /// `gap(name)` or `slip(name)`.
     pub(super) fn of_contact(&mut self, function: &Name, arguments: &[Expression], list: Span) -> Evaluated {
         let word = function.text.as_str();

@@ -18,7 +18,7 @@ impl Evaluator<'_> {
         if function.text == REACTION && self.scope.category(REACTION).is_none() {
             return self.reaction(function, arguments, list);
         }
-        if self.is_of_contact(function) && !self.contacts.is_empty() {
+        if self.is_of_contact(function) && self.stands_below_contacts(arguments) {
             return self.of_contact(function, arguments, list);
         }
         if !names::is_function(&function.text) {

@@ -300,3 +300,33 @@ fn heel_and_toe_are_two_equations() {
         });
     }
 }
+
+#[test]
+fn the_report_names_what_an_equation_follows_from_beside_chosen_parameters() {
+    let folded = |parameters: &str| {
+        format!(
+            "pub system Folded {{
+                constants {{ a > 0, b > 0, m > 0, g = 9.81 }}
+                coordinates {{ p, q, r }}
+                {parameters}
+                let R1 = rot_x(p);
+                let R2 = R1*rot_x(q);
+                let R3 = R2*rot_x(r);
+                let A = R1*vec(0, 0, a);
+                let B = A + R2*vec(0, b, 0);
+                let C = B + R3*vec(0, 0, -a);
+                particles {{ m at A; m at B; }}
+                gravity = vec(0, 0, -g);
+                holonomic {{ closed: C = vec(0, b, 0); square: inner(C, C) = b^2; }}
+            }}"
+        )
+    };
+    for parameters in ["", "parameters { w = dot(p); }"] {
+        let report = derived(&folded(parameters), |folded| {
+            let report = Report::of(&folded.model, &folded.system).to_text();
+            report.lines().filter(|line| line.contains("is no form")).map(str::to_owned).collect::<Vec<_>>()
+        });
+        let [line] = &report[..] else { panic!("{report:?}") };
+        assert!(line.contains("follows from closed_y wherever"), "{line}");
+    }
+}

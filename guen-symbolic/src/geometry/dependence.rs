@@ -18,11 +18,10 @@ pub struct SingularForms {
 /// coefficients by elimination where rows are few.
 pub(super) fn dependencies(bench: &mut Workbench, forms: &Forms) -> Vec<SingularForms> {
     let rows: Vec<Vec<ExprId>> = forms.forms.iter().map(|form| form.row.clone()).collect();
-    let full = |bench: &mut Workbench, trial: &[Vec<ExprId>]| {
-        bench.zero.rank(&mut bench.graph, trial, true).map(|rank| rank == trial.len())
-    };
+    let full =
+        |bench: &mut Workbench, trial: &[Vec<ExprId>]| rank(bench, trial).map(|rank| rank == trial.len());
     let mut found = Vec::new();
-    // `None` where no point of the manifold was found: then nothing is known to be dependent.
+    // `None` where no point was found: then nothing is known to be dependent.
     if full(bench, &rows) != Some(false) {
         return found;
     }
@@ -48,6 +47,12 @@ pub(super) fn dependencies(bench: &mut Workbench, forms: &Forms) -> Vec<Singular
         found.push(combination(bench, forms, &support, j));
     }
     found
+}
+
+/// The rank at points of the manifold; at any where none of it is found, so that what depends on others everywhere is still seen.
+fn rank(bench: &mut Workbench, rows: &[Vec<ExprId>]) -> Option<usize> {
+    let on_manifold = bench.zero.rank(&mut bench.graph, rows, true);
+    on_manifold.or_else(|| bench.zero.rank(&mut bench.graph, rows, false))
 }
 
 /// The dependent row `j` with its coefficients on the rows of its support, and what their offsets leave.
@@ -86,7 +91,7 @@ pub(crate) fn dependence(
         trial.push(c);
         let minor: Vec<Vec<ExprId>> =
             trial.iter().map(|c| rows.iter().map(|row| row[*c]).collect()).collect();
-        if bench.zero.rank(&mut bench.graph, &minor, true) == Some(trial.len()) {
+        if rank(bench, &minor) == Some(trial.len()) {
             columns = trial;
         }
     }

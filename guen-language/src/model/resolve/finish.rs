@@ -39,7 +39,13 @@ impl<'a> Resolver<'a, '_> {
                     let before = raw.len();
                     let (coordinates, constants) = (&self.coordinates, &self.constants);
                     chosen = self.eval.complete(&mut raw, degrees, given, coordinates, constants);
-                    degrees += raw.len() - before;
+                    let more = raw.len() - before;
+                    degrees += more;
+                    // Constraints stand behind the parameters.
+                    redundant
+                        .iter_mut()
+                        .flat_map(|taken| &mut taken.entry.beside)
+                        .for_each(|form| *form += more);
                     order::by_instance(self.declaration, &mut raw, degrees, &mut self.eval.vectors);
                     (forms, idle) = self.eval.linear_forms(&raw, &velocities);
                     match &chosen {
@@ -66,7 +72,7 @@ impl<'a> Resolver<'a, '_> {
                 let found = contacts::modes_of_scene(known, modes.as_deref(), scene, self.eval.faults);
                 of_scene = found.unwrap_or(SceneModes::Without);
             }
-            let is_idle = !has_contacts && !self.declaration.is_outline;
+            let is_idle = !has_contacts && !self.eval.scope.has_contacts() && !self.declaration.is_outline;
             if let Some(section) = scene.modes.first().filter(|_| is_idle) {
                 let text = "there are no contacts that `modes` could speak of";
                 let fault = Fault::new(section.keyword, text);
