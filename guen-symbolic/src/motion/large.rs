@@ -21,6 +21,9 @@ use crate::motion::thresholds::{
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
+/// The name of the formulation by reactions between the velocity forms.
+const CONSTRAINT_FORCES: &str = "constraint forces";
+
 /// The rates of a system without its equations.
 pub(super) struct Alone {
     /// The name of the formulation.
@@ -89,12 +92,13 @@ pub(super) fn rates(
         let solved = composed.as_ref().map(|own| constraint_forces::dense_cost(bench, &own.equations.mass));
         let theirs = solved.unwrap_or(usize::MAX).min(FORCES_PER_PARAMETER * l);
         // Each constraint force costs as much as a parameter at least.
-        let by_forces = (differences.rows.len() <= MOST_FORMS * l)
+        let is_tried = differences.rows.len() <= MOST_FORMS * l && !bench.leaves_out(CONSTRAINT_FORCES);
+        let by_forces = is_tried
             .then(|| constraint_forces::solve(bench, frame, differences, theirs, etas, generalised_forces));
         if let Some(by_forces) = by_forces.flatten() {
             let rates = [&frame.velocities[..], &by_forces.accelerations].concat();
             let solution = Solution::known(bench, by_forces.accelerations, &by_forces.divisors);
-            found.push(("constraint forces", rates, solution));
+            found.push((CONSTRAINT_FORCES, rates, solution));
         }
     }
     found.sort_by_key(|(_, rates, _)| weighted_cost(&bench.graph, rates));
