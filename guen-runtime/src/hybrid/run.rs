@@ -337,6 +337,9 @@ where
     where
         M: Method<f64, InMode<H, N, W, C, S>, N>,
     {
+        /// The part of a step after which a place is looked for that was found twice and was none.
+        const PART: f64 = 1.0 / 256.0;
+
         let state = self.place.state;
         self.slow_down(&state);
         let in_mode = self.place.in_mode.clone();
@@ -401,7 +404,12 @@ where
                 let polished = M::Run::COARSE_POLYNOMIAL;
                 let located = self.located(method, &in_mode, &before, found, at(found.t), polished);
                 let Some((t, state)) = located else {
-                    from = found.t;
+                    // Where the same place is found again, the search goes on behind it.
+                    let behind = from + PART * (after.time - before.time);
+                    from = if found.t == from { behind } else { found.t };
+                    if (after.time - from) * (after.time - before.time) <= 0.0 {
+                        break;
+                    }
                     continue;
                 };
                 self.samples_before(&in_mode, t, &at);

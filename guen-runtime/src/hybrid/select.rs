@@ -218,7 +218,7 @@ where
 }
 
 /// Of two consistent modes the one in which elements go on sticking, where that is the only difference: so with more friction at
-/// rest than in motion. Whether it is the first; none where they differ otherwise.
+/// rest than in motion; but for those that have just left their cones. Whether it is the first; none where they differ otherwise.
 fn preferred<H, const N: usize, const W: usize, const C: usize, const S: usize>(
     known: &[Known; C],
     first: &InMode<H, N, W, C, S>,
@@ -226,10 +226,12 @@ fn preferred<H, const N: usize, const W: usize, const C: usize, const S: usize>(
 ) -> Option<bool> {
     let mut answer = None;
     for ((a, b), known) in first.mode.0.iter().zip(&second.mode.0).zip(known) {
+        // What has just left its cone does not stay there: next to a slip that turns quickly jets do not tell the rate of its margin.
+        let holds = !known.cone_fired.contains(&true);
         let sticks = match (a, b) {
             _ if a == b => continue,
-            (ElementState::Stick, b) if b.slips() && known.slip == Rate::Still => true,
-            (a, ElementState::Stick) if a.slips() && known.slip == Rate::Still => false,
+            (ElementState::Stick, b) if b.slips() && known.slip == Rate::Still => holds,
+            (a, ElementState::Stick) if a.slips() && known.slip == Rate::Still => !holds,
             _ => return None,
         };
         if answer.is_some_and(|answer| answer != sticks) {
