@@ -74,3 +74,32 @@ fn three_feet_that_slide_and_turn_come_to_rest() {
         assert!([end.v_x, end.v_y, end.w_z].iter().all(|rate| rate.abs() < 1e-9), "{end:?}");
     }
 }
+
+#[test]
+fn a_foot_slips_beside_another_that_slips_slowly() {
+    let constants = Tripod { J: [0.05, 0.06, 0.08], mu: 0.531_014_929_678_914_2, ..Tripod::default() };
+    let tripod = constants.prepare().unwrap();
+    // It falls over two feet: one sticks and reaches its cone, the other slips by 0.2 mm/s.
+    let start = tripod::State {
+        x: -0.240_406_320_156_486_75,
+        y: 0.489_593_202_284_249_35,
+        z: 0.219_515_462_257_676_96,
+        q0: 0.705_109_924_871_525_8,
+        q1: -0.660_140_899_639_700_2,
+        q2: 0.175_925_353_564_211_35,
+        q3: 0.189_958_565_071_085_13,
+        v_x: -0.002_342_163_498_474_039_4,
+        v_y: 0.861_096_967_746_234_7,
+        v_z: -1.122_005_823_563_821_5,
+        w_x: -3.922_676_167_639_379_8,
+        w_y: -0.010_636_051_877_397_227,
+        w_z: 2.573_686_798_600_533_5e-5,
+    };
+    let motion = tripod.simulation(&start).tolerance(1e-9).run(0.0..0.005).unwrap();
+    let feet = |mode: &tripod::Mode| mode.foot;
+    let slips =
+        motion.transitions().iter().find(|transition| transition.kind == TransitionKind::Slips).unwrap();
+    assert!((slips.t - 0.001_568_191_9).abs() < 1e-8, "{}", slips.t);
+    use tripod::Foot::{Open, Slip, Stick};
+    assert_eq!((feet(&slips.before), feet(&slips.after)), ([Slip, Stick, Open], [Slip, Slip, Open]));
+}
