@@ -72,6 +72,34 @@ fn equations_of_a_chain_grow_with_the_square_of_its_links() {
     assert!(whole.operations < 2.1 * half.operations, "{} {}", half.operations, whole.operations);
 }
 
+/// What a mass matrix or base angles give with less keeps its cost.
+#[test]
+fn coupled_neighbours_and_relative_angles_cost_what_they_did() {
+    let neighbours = size(
+        "pub system Row {
+            count n = 30;
+            constants { m[n] > 0, k > 0 }
+            coordinates { x[n] }
+            kinetic_energy = sum(i in 0..n: m[i]/2*dot(x[i])^2) + sum(i in 1..n: (dot(x[i]) + dot(x[i-1]))^2/2);
+            potential_energy = sum(i in 1..n: k/2*(x[i] - x[i-1])^2);
+        }",
+    );
+    assert!(neighbours.operations <= 204.0, "{}", neighbours.operations);
+    let joints = size(
+        "pub system Joints {
+            count n = 30;
+            constants { m > 0, l > 0, g = 9.81 }
+            coordinates { q[n] }
+            let a[0] = q[0];
+            let p[0] = l*vec(sin(a[0]), -cos(a[0]));
+            for i in 1..n { let a[i] = a[i-1] + q[i]; let p[i] = p[i-1] + l*vec(sin(a[i]), -cos(a[i])); }
+            particles { for i in 0..n { m at p[i]; } }
+            gravity = vec(0, -g);
+        }",
+    );
+    assert!(joints.operations <= 470.0, "{}", joints.operations);
+}
+
 /// The momenta are the derivatives of the energy: of links behind a support that is moved, in parameters that mix, of a tree, in space.
 #[test]
 fn momenta_over_the_links_are_slopes_of_the_energy() {
@@ -99,13 +127,14 @@ fn momenta_over_the_links_are_slopes_of_the_energy() {
         particles { for i in 0..n { m at p[i]; } }
         potential_energy = k*inner(p[n-1], p[n-1])/2;
     }";
-    for text in [
-        chain("", "vec(0, 0)", "", "i-1"),
-        chain(", a, W", "vec(a*sin(W*t), 0)", "", "i-1"),
-        chain("", "vec(0, 0)", mixed, "i-1"),
-        chain("", "vec(0, 0)", "", "(i-1)/2"),
-        space.to_owned(),
-    ] {
+    let cases = [
+        (true, chain("", "vec(0, 0)", "", "i-1")),
+        (false, chain(", a, W", "vec(a*sin(W*t), 0)", "", "i-1")),
+        (false, chain("", "vec(0, 0)", mixed, "i-1")),
+        (true, chain("", "vec(0, 0)", "", "(i-1)/2")),
+        (false, space.to_owned()),
+    ];
+    for (over_the_links, text) in cases {
         let (parsed, _) = parse::parse(text.parse().unwrap());
         let parsed = parsed.unwrap();
         let (derived, report) = collect(|faults| derive::derive(model::resolve(&parsed, faults)?, faults));
@@ -113,6 +142,8 @@ fn momenta_over_the_links_are_slopes_of_the_energy() {
         let mut derived = derived.unwrap();
         let (bench, derivation) = (&mut derived.model.bench, &derived.system.derivation);
         assert!(derivation.is_by("constraint forces"), "{text}");
+        let without_others = derivation.declined.iter().any(|(_, why)| *why == "the parameters are many");
+        assert_eq!(without_others, over_the_links, "{:?} {text}", derivation.declined);
         assert_eq!(derivation.energies.momenta.len(), 26);
         for (momentum, eta) in derivation.energies.momenta.iter().zip(&derivation.system.etas) {
             let slope = bench.partial(derivation.energies.kinetic, *eta);
