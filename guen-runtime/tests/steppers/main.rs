@@ -2,6 +2,7 @@
 
 mod bounds_of_bounded;
 mod driver;
+mod failed_ends;
 mod guarded_steps;
 mod integration;
 mod late_starts;
