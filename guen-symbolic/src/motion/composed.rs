@@ -169,9 +169,10 @@ mod tests {
         let mut whole_speeds = speeds.clone();
         for k in [2, 1, 3] {
             let Edge { parent, multiple } = differences.edges[k].clone().unwrap();
-            for s in 0..3 {
-                let part = bench.graph.scale(whole[parent][s], &multiple);
-                whole[k][s] = bench.graph.add(part, whole[k][s]);
+            let before = whole[parent].clone();
+            for (entry, before) in whole[k].iter_mut().zip(before) {
+                let part = bench.graph.scale(before, &multiple);
+                *entry = bench.graph.add(part, *entry);
             }
             let part = bench.graph.scale(whole_speeds[parent], &multiple);
             whole_speeds[k] = bench.graph.add(part, whole_speeds[k]);
