@@ -226,7 +226,8 @@ fn preferred<H, const N: usize, const W: usize, const C: usize, const S: usize>(
 ) -> Option<bool> {
     let mut answer = None;
     for ((a, b), known) in first.mode.0.iter().zip(&second.mode.0).zip(known) {
-        // What has just left its cone does not stay there: next to a slip that turns quickly jets do not tell the rate of its margin.
+        // A contact whose margin has just fallen through zero slips. Its derivatives do not show that where another slip is slow: the
+        // direction of that one turns quickly, and their errors are larger than they are.
         let holds = !known.cone_fired.contains(&true);
         let sticks = match (a, b) {
             _ if a == b => continue,
