@@ -103,3 +103,30 @@ fn a_foot_slips_beside_another_that_slips_slowly() {
     use tripod::Foot::{Open, Slip, Stick};
     assert_eq!((feet(&slips.before), feet(&slips.after)), ([Slip, Stick, Open], [Slip, Slip, Open]));
 }
+
+#[test]
+fn a_slip_ends_beside_a_foot_that_sticks() {
+    let constants = Tripod { J: [0.05, 0.06, 0.08], mu: 0.518_705_549_761_714_2, ..Tripod::default() };
+    let tripod = constants.prepare().unwrap();
+    // Two feet slip by half a millimetre a second, and end half a nanosecond apart.
+    let start = tripod::State {
+        x: 0.247_417_484_707_624_37,
+        y: 0.349_621_084_860_218_76,
+        z: 0.349_517_554_463_795_9,
+        q0: 0.875_357_642_492_354_4,
+        q1: -0.091_237_020_428_830_68,
+        q2: 0.142_431_300_870_025_34,
+        q3: -0.452_921_768_483_221_63,
+        v_x: -0.069_843_363_035_208_24,
+        v_y: -0.005_611_674_836_122_91,
+        v_z: -0.017_823_576_624_296_313,
+        w_x: 0.018_543_354_132_762_892,
+        w_y: -0.200_473_366_028_585_6,
+        w_z: -0.000_628_980_169_229_729_5,
+    };
+    let motion = tripod.simulation(&start).tolerance(1e-9).run(0.0..0.0005).unwrap();
+    use tripod::Foot::{Open, Stick};
+    assert_eq!(motion.mode_at(0.0005).foot, [Stick, Stick, Open]);
+    let ends: Vec<f64> = motion.transitions().iter().map(|transition| transition.t).collect();
+    assert!(ends.len() == 2 && ends.iter().all(|t| (t - 0.000_192_569).abs() < 1e-8), "{ends:?}");
+}
