@@ -130,3 +130,34 @@ fn a_slip_ends_beside_a_foot_that_sticks() {
     let ends: Vec<f64> = motion.transitions().iter().map(|transition| transition.t).collect();
     assert!(ends.len() == 2 && ends.iter().all(|t| (t - 0.000_192_569).abs() < 1e-8), "{ends:?}");
 }
+
+#[test]
+fn a_search_that_finds_the_same_place_again_ends() {
+    let (sender, receiver) = std::sync::mpsc::channel();
+    std::thread::spawn(move || {
+        let constants = Tripod { J: [0.05, 0.06, 0.08], mu: 0.400_006_265_361_652_5, ..Tripod::default() };
+        let tripod = constants.prepare().unwrap();
+        // Two feet stick, and one begins to slip across the line between them, as slowly as roundings allow.
+        let start = tripod::State {
+            x: -0.217_368_858_442_612_25,
+            y: 0.201_356_190_531_399_08,
+            z: 0.324_860_550_993_386_5,
+            q0: 0.809_245_092_424_312_9,
+            q1: -0.069_228_207_785_421_84,
+            q2: -0.007_014_306_462_137_511,
+            q3: 0.583_335_782_494_815_9,
+            v_x: 0.392_792_956_242_570_16,
+            v_y: -0.442_863_062_921_228_7,
+            v_z: -0.285_017_733_182_076_5,
+            w_x: 1.363_240_509_095_376_5,
+            w_y: 1.209_112_510_095_344,
+            w_z: 1.498_683_123_322_748_7e-17,
+        };
+        let run = Hybrid::new(&tripod, 0.0, &start.into());
+        let end = run.run(&Dop853::new(1e-9, 1e-9), 0.000_5).map_or_else(|error| error.t, |done| done.t);
+        sender.send(end).unwrap();
+    });
+    // It took for ever; the feet stick until 0.153 ms.
+    let end = receiver.recv_timeout(std::time::Duration::from_secs(120)).expect("the run ends");
+    assert!(end > 0.000_153, "{end}");
+}
