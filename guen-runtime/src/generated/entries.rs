@@ -18,34 +18,25 @@ pub struct EntryNames<const N: usize, const L: usize> {
 
 impl<const N: usize, const L: usize> EntryNames<N, L> {
     /// The names of entries from the number `first` on.
+    ///
+    /// The compiler evaluates constants slowly, so a name is the one before it with its last digit counted on; only every
+    /// tenth is written anew.
     #[must_use]
     pub const fn new(before: &str, first: usize, after: &str) -> Self {
         let mut names = EntryNames { bytes: [[0; L]; N], lengths: [0; N] };
         let mut entry = 0;
         while entry < N {
-            let mut digits = 1;
-            let mut rest = (first + entry) / 10;
-            while rest > 0 {
-                digits += 1;
-                rest /= 10;
+            let (mut name, length) = numbered(before, first + entry, after);
+            let last = length - after.len() - 1;
+            loop {
+                names.bytes[entry] = name;
+                names.lengths[entry] = length;
+                entry += 1;
+                if entry == N || name[last] == b'9' {
+                    break;
+                }
+                name[last] += 1;
             }
-            let length = before.len() + digits + after.len();
-            let mut number = first + entry;
-            let mut at = length;
-            while at > 0 {
-                at -= 1;
-                names.bytes[entry][at] = if at >= before.len() + digits {
-                    after.as_bytes()[at - before.len() - digits]
-                } else if at >= before.len() {
-                    let digit = (number % 10) as u8;
-                    number /= 10;
-                    b'0' + digit
-                } else {
-                    before.as_bytes()[at]
-                };
-            }
-            names.lengths[entry] = length;
-            entry += 1;
         }
         names
     }
@@ -58,6 +49,32 @@ impl<const N: usize, const L: usize> EntryNames<N, L> {
             Err(_) => "",
         }
     }
+}
+
+/// A number between two words, and the length of all three.
+const fn numbered<const L: usize>(before: &str, mut number: usize, after: &str) -> ([u8; L], usize) {
+    let mut digits = 1;
+    let mut rest = number / 10;
+    while rest > 0 {
+        digits += 1;
+        rest /= 10;
+    }
+    let length = before.len() + digits + after.len();
+    let mut name = [0; L];
+    let mut at = length;
+    while at > 0 {
+        at -= 1;
+        name[at] = if at >= before.len() + digits {
+            after.as_bytes()[at - before.len() - digits]
+        } else if at >= before.len() {
+            let digit = (number % 10) as u8;
+            number /= 10;
+            b'0' + digit
+        } else {
+            before.as_bytes()[at]
+        };
+    }
+    (name, length)
 }
 
 /// A list of names in which some are those of the entries of an array, from a place on.
@@ -115,4 +132,26 @@ macro_rules! names {
         )*
         names
     }};
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use std::format;
+
+    use super::EntryNames;
+
+    #[test]
+    fn names_carry_their_digits() {
+        const FROM_ZERO: &EntryNames<1003, 7> = &EntryNames::new("q[", 0, "]");
+        const FROM_ONE: &EntryNames<99, 11> = &EntryNames::new("particle ", 1, "");
+        const WORDS: &EntryNames<2, 9> = &EntryNames::new("m[", 9, "] > 0");
+        for entry in 0..1003 {
+            assert_eq!(FROM_ZERO.get(entry), format!("q[{entry}]"));
+        }
+        for entry in 0..99 {
+            assert_eq!(FROM_ONE.get(entry), format!("particle {}", entry + 1));
+        }
+        assert_eq!((WORDS.get(0), WORDS.get(1)), ("m[9] > 0", "m[10] > 0"));
+    }
 }

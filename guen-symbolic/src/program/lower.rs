@@ -1,14 +1,15 @@
 //! Lowers a net to instructions: one operation each, equal operations once, in the order of first use.
 
 use super::instruction::{Instruction, Operation, Value};
+use super::marks::Marks;
 use super::net::{Linear, Net, NetNode, split_sign};
 use super::stage::Stage;
 use super::terms::NetId;
 use crate::algebra::{ExprId, FastMap, Function, Graph, Node, Rational};
 
 /// Flags of the functions of an angle that are needed.
-const SINE: u8 = 1;
-const COSINE: u8 = 2;
+const SINE: u32 = 1;
+const COSINE: u32 = 2;
 
 /// The constants that functions load, as expressions, in the order of first use.
 #[derive(Clone, Debug, Default)]
@@ -45,20 +46,20 @@ pub(super) fn lower(graph: &mut Graph, net: &Net, roots: &[NetId], prepared: &mu
         net,
         prepared,
         uses,
-        denominators: vec![0; net.len()],
-        turned: vec![0; net.len()],
-        done: vec![0; net.len()],
+        denominators: net.marks(),
+        turned: net.marks(),
+        done: net.marks(),
         stage: Stage::default(),
     };
     for id in &nodes {
         match net.node(*id) {
             NetNode::Product(factors) => {
                 for (base, _) in factors.iter().filter(|(_, e)| *e < 0) {
-                    lowering.denominators[base.0 as usize] += 1;
+                    lowering.denominators.set(*base, lowering.denominators.get(*base) + 1);
                 }
             }
-            NetNode::Call(Function::Sin, x) => lowering.turned[x.0 as usize] |= SINE,
-            NetNode::Call(Function::Cos, x) => lowering.turned[x.0 as usize] |= COSINE,
+            NetNode::Call(Function::Sin, x) => lowering.turned.set(*x, lowering.turned.get(*x) | SINE),
+            NetNode::Call(Function::Cos, x) => lowering.turned.set(*x, lowering.turned.get(*x) | COSINE),
             _ => {}
         }
     }
@@ -70,13 +71,13 @@ struct Lowering<'a> {
     graph: &'a mut Graph,
     net: &'a Net,
     prepared: &'a mut PreparedTable,
-    uses: Vec<u32>,
+    uses: Marks,
     /// The number of products that divide by each node.
-    denominators: Vec<u32>,
+    denominators: Marks,
     /// Whether sine and cosine of a node are needed.
-    turned: Vec<u8>,
-    /// The value of each node, plus one, zero for none: zeroed memory is cheap also without optimisation.
-    done: Vec<u32>,
+    turned: Marks,
+    /// The value of each node, plus one, zero for none.
+    done: Marks,
     stage: Stage,
 }
 
@@ -99,12 +100,12 @@ impl Lowering<'_> {
     fn value(&mut self, root: NetId) -> Value {
         let mut stack = vec![(root, false)];
         while let Some((id, entered)) = stack.pop() {
-            if self.done[id.0 as usize] != 0 {
+            if self.done.get(id) != 0 {
                 continue;
             }
             if entered {
                 let value = self.step(id);
-                self.done[id.0 as usize] = value.0 + 1;
+                self.done.set(id, value.0 + 1);
                 continue;
             }
             stack.push((id, true));
@@ -119,7 +120,7 @@ impl Lowering<'_> {
 
     fn get(&self, id: NetId) -> Value {
         // Children come before their parents.
-        Value(self.done[id.0 as usize] - 1)
+        Value(self.done.get(id) - 1)
     }
 
     fn step(&mut self, id: NetId) -> Value {
@@ -138,7 +139,7 @@ impl Lowering<'_> {
             NetNode::Product(factors) => self.product(None, factors),
             NetNode::Call(function @ (Function::Sin | Function::Cos), x) => {
                 let angle = self.get(*x);
-                if self.turned[x.0 as usize] != SINE | COSINE {
+                if self.turned.get(*x) != SINE | COSINE {
                     return self.stage.emit(Operation::Call(*function, angle));
                 }
                 let key = Operation::Call(*function, angle);
@@ -217,8 +218,8 @@ impl Lowering<'_> {
     }
 
     fn is_lone_reciprocal(&self, node: NetId, factors: &[(NetId, i32)]) -> bool {
-        self.uses[node.0 as usize] == 1
-            && factors.iter().all(|(base, e)| *e < 0 && self.denominators[base.0 as usize] == 1)
+        self.uses.get(node) == 1
+            && factors.iter().all(|(base, e)| *e < 0 && self.denominators.get(*base) == 1)
     }
 
     /// `k * product base^e`: shared denominators as reciprocals, all others in one division.
@@ -230,7 +231,7 @@ impl Lowering<'_> {
             let n = e.unsigned_abs();
             if *e > 0 {
                 above.push(self.power(value, n));
-            } else if self.denominators[base.0 as usize] > 1 {
+            } else if self.denominators.get(*base) > 1 {
                 let one = self.number(1);
                 let reciprocal = self.stage.emit(Operation::Div(one, value));
                 above.push(self.power(reciprocal, n));

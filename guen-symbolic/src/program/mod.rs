@@ -15,6 +15,7 @@ mod fixed;
 mod instruction;
 mod jacobian;
 mod lower;
+mod marks;
 mod net;
 mod part;
 mod passes;

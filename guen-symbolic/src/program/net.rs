@@ -5,6 +5,7 @@
 //! graph computes with exactly; in a program each is one prepared value. Nothing is flattened or expanded
 //! once it is here, so that what a pass shares stays shared.
 
+use super::marks::{Marks, Tables};
 use super::passes::angles::{Angle, Angles};
 use super::terms::{NetId, Powers};
 use crate::algebra::{
@@ -112,6 +113,7 @@ pub(super) struct Net {
     hashes: Vec<u32>,
     /// Slots with one more than the number of a node, zero for none; a power of two of them.
     slots: Vec<u32>,
+    tables: Tables,
 }
 
 impl Net {
@@ -121,6 +123,11 @@ impl Net {
 
     pub(super) fn len(&self) -> usize {
         self.nodes.len()
+    }
+
+    /// A number for each node that there is, zero at first.
+    pub(super) fn marks(&self) -> Marks {
+        self.tables.marks(self.nodes.len())
     }
 
     pub(super) fn intern(&mut self, node: NetNode) -> NetId {
@@ -272,42 +279,34 @@ impl Net {
     }
 
     /// Everything below the roots, children first, and how many parents (or roots) use each node.
-    pub(super) fn reachable(&self, roots: &[NetId]) -> (Vec<NetId>, Vec<u32>) {
+    pub(super) fn reachable(&self, roots: &[NetId]) -> (Vec<NetId>, Marks) {
         /// A share of the nodes below which those that are met are sorted, rather than all looked at.
         const SPARSE: usize = 16;
         let nodes: &[NetNode] = &self.nodes;
-        let mut counts = vec![0_u32; nodes.len()];
-        let uses: &mut [u32] = &mut counts;
-        let mut found: Vec<NetId> = Vec::new();
-        let count = |uses: &mut [u32], found: &mut Vec<NetId>, id: NetId| {
-            let index = id.0 as usize;
-            uses[index] += 1;
-            if uses[index] == 1 {
-                found.push(id);
-            }
-        };
+        let mut uses = self.marks();
         for root in roots {
-            count(uses, &mut found, *root);
+            uses.set(*root, uses.get(*root) + 1);
         }
         let mut next = 0;
-        while next < found.len() {
-            let index = found[next].0 as usize;
-            nodes[index].children(|child| count(uses, &mut found, child));
+        while next < uses.written().len() {
+            let index = uses.written()[next].0 as usize;
+            nodes[index].children(|child| uses.set(child, uses.get(child) + 1));
             next += 1;
         }
         // Children are older than their parents.
-        if SPARSE * found.len() < nodes.len() {
+        let mut found: Vec<NetId>;
+        if SPARSE * uses.written().len() < nodes.len() {
+            found = uses.written().to_vec();
             found.sort_unstable();
         } else {
-            let mut place = 0;
-            for (index, uses) in uses.iter().enumerate() {
-                if *uses > 0 {
-                    found[place] = NetId(index as u32);
-                    place += 1;
+            found = Vec::with_capacity(uses.written().len());
+            for index in 0..nodes.len() as u32 {
+                if uses.get(NetId(index)) > 0 {
+                    found.push(NetId(index));
                 }
             }
         }
-        (found, counts)
+        (found, uses)
     }
 }
 

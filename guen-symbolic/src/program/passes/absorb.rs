@@ -21,7 +21,7 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
         let mut collected = Terms::with_capacity(linear.terms.len());
         let mut changed = false;
         for (child, k) in linear.terms {
-            let single = uses.get(child.0 as usize) == Some(&1);
+            let single = uses.get(child) == 1;
             if let NetNode::Sum(inner) = net.node(child)
                 && single
                 && !changes.contains_key(&child)
@@ -43,7 +43,7 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
                 && let Some((sum, inner)) = factors.iter().find_map(|(factor, e)| match net.node(*factor) {
                     NetNode::Sum(inner)
                         if *e == 1
-                            && uses[factor.0 as usize] == 1
+                            && uses.get(*factor) == 1
                             && !changes.contains_key(factor)
                             && gains(graph, k, inner, 0) =>
                     {

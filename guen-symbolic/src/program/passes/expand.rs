@@ -1,5 +1,6 @@
 //! `x (a + b) = x a + x b` for short sums that few products use, so that later passes can group terms anew.
 
+use super::super::marks::Marks;
 use super::super::net::{Linear, Net, NetNode};
 use super::super::terms::NetId;
 use super::super::terms::{Terms, add_term, nonzero};
@@ -52,7 +53,7 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
                         add(graph, product, k);
                     }
                 }
-                if uses.get(factor.0 as usize) == Some(&1) {
+                if uses.get(factor) == 1 {
                     gone.insert(factor, ());
                 }
                 progress = true;
@@ -72,9 +73,9 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
 }
 
 /// A short sum among the factors of a node that few others use, and the other factors.
-fn expandable(net: &Net, uses: &[u32], node: NetId) -> Option<(Vec<(NetId, i32)>, NetId)> {
+fn expandable(net: &Net, uses: &Marks, node: NetId) -> Option<(Vec<(NetId, i32)>, NetId)> {
     // Nodes that this pass has made are used once.
-    let count = |id: NetId| uses.get(id.0 as usize).copied().filter(|n| *n > 0).unwrap_or(1);
+    let count = |id: NetId| uses.get(id).max(1);
     let short = |id: NetId| match net.node(id) {
         NetNode::Sum(inner) => match count(id) {
             1 => inner.terms.len() <= SINGLE_TERMS,

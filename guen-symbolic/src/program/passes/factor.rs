@@ -46,7 +46,7 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId], open_sh
             .iter()
             .map(|(node, k)| {
                 let powers = match net.node(*node) {
-                    NetNode::Product(factors) if open_shared || uses[node.0 as usize] == 1 => {
+                    NetNode::Product(factors) if open_shared || uses.get(*node) == 1 => {
                         Powers::from_sorted(factors.clone())
                     }
                     _ => Powers::from_sorted(vec![(*node, 1)]),

@@ -90,11 +90,11 @@ pub(super) fn rebuild(graph: &mut Graph, net: &mut Net, roots: &[NetId], changes
     if changes.is_empty() {
         return roots.to_vec();
     }
-    // One more than the image, zero for none: zeroed memory is cheap also without optimisation.
-    let mut images: Vec<u32> = vec![0; net.len()];
+    // One more than the image, zero for none.
+    let mut images = net.marks();
     let mut stack: Vec<(NetId, bool)> = roots.iter().rev().map(|root| (*root, false)).collect();
     while let Some((id, entered)) = stack.pop() {
-        if images[id.0 as usize] != 0 {
+        if images.get(id) != 0 {
             continue;
         }
         let change = changes.get(&id);
@@ -102,23 +102,23 @@ pub(super) fn rebuild(graph: &mut Graph, net: &mut Net, roots: &[NetId], changes
         if !entered {
             stack.push((id, true));
             content.children(|child| {
-                if images[child.0 as usize] == 0 {
+                if images.get(child) == 0 {
                     stack.push((child, false));
                 }
             });
             continue;
         }
         let mut same = change.is_none();
-        content.children(|child| same &= images[child.0 as usize] == child.0 + 1);
+        content.children(|child| same &= images.get(child) == child.0 + 1);
         let image = if same {
             id
         } else {
             let content = content.clone();
-            with_children(graph, net, content, |child| NetId(images[child.0 as usize] - 1))
+            with_children(graph, net, content, |child| NetId(images.get(child) - 1))
         };
-        images[id.0 as usize] = image.0 + 1;
+        images.set(id, image.0 + 1);
     }
-    roots.iter().map(|root| NetId(images[root.0 as usize] - 1)).collect()
+    roots.iter().map(|root| NetId(images.get(*root) - 1)).collect()
 }
 
 fn with_children(graph: &mut Graph, net: &mut Net, node: NetNode, image: impl Fn(NetId) -> NetId) -> NetId {

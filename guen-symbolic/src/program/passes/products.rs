@@ -344,10 +344,10 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId], split_c
         }
     }
     // In the order of their numbers, each once.
-    let mut is_whole = vec![0_u8; net.len()];
-    whole.into_iter().for_each(|id| is_whole[id.0 as usize] = 1);
+    let mut is_whole = net.marks();
+    whole.into_iter().for_each(|id| is_whole.set(id, 1));
     for id in nodes {
-        if is_whole[id.0 as usize] != 0 && matches!(net.node(id), NetNode::Product(_)) {
+        if is_whole.get(id) != 0 && matches!(net.node(id), NetNode::Product(_)) {
             let index = monomial(graph, net, &mut search, &mut known, one, id, split_constants);
             inner_products.push((id, index));
         }
