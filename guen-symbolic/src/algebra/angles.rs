@@ -11,8 +11,8 @@ use std::collections::BTreeMap;
 use super::base_angles::{AngleParts, BaseAngles};
 use super::{ExprId, FastMap, Function, Graph, Node, Rational};
 
-/// The number of terms above which an argument is no base angle and stays whole.
-const ARGUMENT_TERMS: usize = 64;
+/// The number of terms above which an argument is no base angle and stays whole: the last joint of a long chain turns with all before it.
+const ARGUMENT_TERMS: usize = 200;
 
 impl Graph {
     /// A declaration begins: until its base angles are chosen every argument is an angle of its own.

@@ -5,10 +5,12 @@
 //! So the accelerations are found there, `zeta = J eta` with numbers for `J`, and turned back.
 
 use super::constraint_forces::{self, ByConstraintForces};
-use super::restated::Restated;
+use super::large::{self, Alone};
+use super::proof::Definition;
+use super::restated::{Prepared, Restated};
 use super::symmetry::Symmetry;
-use super::thresholds::ALL_FORMS;
-use super::{Equations, Frame, Mechanics};
+use super::thresholds::{ALL_FORMS, COUPLED_COORDINATES};
+use super::{DerivationError, Equations, Frame, Mechanics, Solution};
 use crate::algebra::{ExprId, Rational, Role, Substitution};
 use crate::geometry::{Form, Operators};
 use crate::program::weighted_cost;
@@ -16,21 +18,20 @@ use crate::workbench::Workbench;
 
 type Matrix = Vec<Vec<Rational>>;
 
-/// Whether some base angle turns with several parameters, so that its rate is another parameter.
-pub(super) fn are_others(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -> bool {
-    Change::new(bench, system, frame).is_some()
-}
-
 /// Other parameters, `zeta = J eta`.
-struct Change {
+pub(super) struct Change {
     to: Matrix,
     back: Matrix,
 }
 
 impl Change {
-    /// The rates of base angles, as far as they are combinations of several parameters; parameters beside them.
-    fn new(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -> Option<Self> {
+    /// The rates of base angles, as far as they are combinations of several parameters, and parameters beside them; none where these are
+    /// the parameters as declared, or where they are too many for a full matrix.
+    pub(super) fn new(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -> Option<Self> {
         let l = system.forms.degrees;
+        if l > COUPLED_COORDINATES {
+            return None;
+        }
         let etas = &system.etas[..l];
         let mut rows: Matrix = Vec::new();
         for angle in bench.graph.base_angles().to_vec() {
@@ -48,7 +49,7 @@ impl Change {
                 rows.push(row);
             }
         }
-        if !rows.iter().any(|row| row.iter().filter(|c| !c.is_zero()).count() > 1) {
+        if !rows.iter().any(|row| count(row) > 1) {
             return None;
         }
         // Parameters that no angle stands for stay.
@@ -72,11 +73,13 @@ impl Change {
     }
 
     /// The system in the other parameters.
-    fn system(&self, bench: &mut Workbench, system: &Mechanics, zetas: &[ExprId]) -> Mechanics {
-        let l = zetas.len();
-        let etas_of_zetas = applied(bench, &self.back, zetas);
+    fn system(&self, bench: &mut Workbench, system: &Mechanics) -> Mechanics {
+        let l = self.to.len();
+        let zetas: Vec<ExprId> =
+            (0..l).map(|s| bench.graph.symbol(&format!("zeta{}", s + 1), Role::QuasiVelocity)).collect();
+        let etas_of_zetas = applied(bench, &self.back, &zetas);
         let mut other = system.clone();
-        other.etas[..l].copy_from_slice(zetas);
+        other.etas[..l].copy_from_slice(&zetas);
         let mut into = Substitution::new(system.etas[..l].iter().copied().zip(etas_of_zetas));
         other.kinetic_energy = into.of(&mut bench.graph, system.kinetic_energy);
         for force in &mut other.forces {
@@ -115,6 +118,101 @@ impl Change {
         }
         other
     }
+
+    /// The other parameters by those as declared; each sum of them once.
+    fn parameters(&self, bench: &mut Workbench, declared: &Mechanics) -> Vec<ExprId> {
+        PartialSums::new(&self.to).found(bench, &declared.etas[..self.to.len()])
+    }
+
+    /// The equations in the parameters as declared, `J^T M J eta' = J^T f`, of those in the other ones.
+    fn equations(
+        &self,
+        bench: &mut Workbench,
+        own: &Equations,
+        systems: (&Mechanics, &Mechanics),
+    ) -> Equations {
+        let partial = PartialSums::new(&transposed(&self.to));
+        let right: Vec<Vec<ExprId>> = own.mass.iter().map(|row| partial.kept(bench, row)).collect();
+        let turned: Vec<Vec<ExprId>> =
+            transposed(&right).iter().map(|column| partial.kept(bench, column)).collect();
+        let forces = partial.kept(bench, &own.forces);
+        let mut out = self.out(bench, systems);
+        let mut out = |e: &ExprId| out.of(&mut bench.graph, *e);
+        Equations {
+            mass: transposed(&turned).iter().map(|row| row.iter().map(&mut out).collect()).collect(),
+            forces: forces.iter().map(&mut out).collect(),
+        }
+    }
+
+    /// Returns the rates of the state with the parameters as declared; each sum of parameters is computed once.
+    fn turned_back(
+        &self,
+        bench: &mut Workbench,
+        systems: (&Mechanics, &Mechanics),
+        velocities: &[ExprId],
+        accelerations: &[ExprId],
+    ) -> Vec<ExprId> {
+        let mut out = self.out(bench, systems);
+        let accelerations = applied(bench, &self.back, accelerations);
+        velocities.iter().chain(&accelerations).map(|e| out.of(&mut bench.graph, *e)).collect()
+    }
+
+    /// The accelerations with the parameters as declared. One that several of them are differences of is computed once; written out,
+    /// small ones have more in common.
+    fn accelerations(
+        &self,
+        bench: &mut Workbench,
+        systems: (&Mechanics, &Mechanics),
+        mut own: Vec<ExprId>,
+    ) -> Vec<ExprId> {
+        let is_large = weighted_cost(&bench.graph, &own) > ALL_FORMS;
+        let is_shared = |k: usize| self.back.iter().filter(|row| !row[k].is_zero()).count() > 1;
+        for (_, e) in own.iter_mut().enumerate().filter(|(k, _)| is_large && is_shared(*k)) {
+            *e = bench.graph.keep(*e);
+        }
+        self.turned_back(bench, systems, &[], &own)
+    }
+
+    /// Puts the parameters as declared in the place of the other ones.
+    fn out(&self, bench: &mut Workbench, (declared, other): (&Mechanics, &Mechanics)) -> Substitution {
+        let sums = self.parameters(bench, declared);
+        Substitution::new(other.etas.iter().copied().zip(sums))
+    }
+
+    /// The proved rates of a large system by those in the other parameters; none where no way to these is known.
+    pub(super) fn large_rates(
+        &self,
+        bench: &mut Workbench,
+        (declared, frame): (&Mechanics, &mut Frame),
+        (definition, generalised_forces): (&mut Definition, &[ExprId]),
+    ) -> Result<Option<Alone>, DerivationError> {
+        let (system, operators) = (self.system(bench, declared), self.operators(bench, &frame.operators));
+        let Some(mut own) = Prepared::new(bench, system, operators) else { return Ok(None) };
+        let mut proof = Definition::new(bench, &own.system, &own.forces);
+        let of = (&own.system, &mut own.frame);
+        let found = large::rates(bench, of, &mut own.partials, &own.terms, &own.forces, &mut proof)?;
+        let Some(Alone { name, solution, equations, momenta, .. }) = found else { return Ok(None) };
+        let systems = (declared, &own.system);
+        let accelerations = self.accelerations(bench, systems, solution.accelerations);
+        let rates = [&frame.velocities[..], &accelerations].concat();
+        if !definition.is_solved_by(bench, (declared, frame), &rates)? {
+            return Ok(None);
+        }
+        let solution = Solution { accelerations, ..solution };
+        if equations.mass.is_empty() {
+            return Ok(Some(Alone { name, rates, solution, equations, momenta }));
+        }
+        let undriven = equations.undriven(bench, &own.forces);
+        let equations = self.equations(bench, &undriven, systems);
+        if !definition.is(bench, (declared, frame), &equations, true)? {
+            return Ok(None);
+        }
+        let equations = equations.driven(bench, generalised_forces);
+        let momenta = PartialSums::new(&transposed(&self.to)).kept(bench, &momenta);
+        let mut out = self.out(bench, systems);
+        let momenta = momenta.into_iter().map(|e| out.of(&mut bench.graph, e)).collect();
+        Ok(Some(Alone { name, rates, solution, equations, momenta }))
+    }
 }
 
 /// A system in the rates of its base angles.
@@ -127,39 +225,16 @@ impl InBaseParameters {
     /// `None` where these are the parameters as declared.
     pub(super) fn new(bench: &mut Workbench, declared: &Mechanics, frame: &mut Frame) -> Option<Self> {
         let change = Change::new(bench, declared, frame)?;
-        let zetas: Vec<ExprId> = (0..declared.forms.degrees)
-            .map(|s| bench.graph.symbol(&format!("zeta{}", s + 1), Role::QuasiVelocity))
-            .collect();
-        let system = change.system(bench, declared, &zetas);
+        let system = change.system(bench, declared);
         let operators = change.operators(bench, &frame.operators);
         let restated = Restated::new(bench, system, operators)?;
         Some(InBaseParameters { change, restated })
     }
 
-    /// The equations in the parameters as declared, `J^T M J eta' = J^T f`, without the generalised forces.
+    /// The equations in the parameters as declared, without the generalised forces.
     pub(super) fn equations(&self, bench: &mut Workbench, declared: &Mechanics) -> Equations {
-        let Equations { mass, forces } = &self.restated.projected.equations;
-        let columns = transposed(&self.change.to);
-        let kept = |bench: &mut Workbench, v: &[ExprId]| -> Vec<ExprId> {
-            accumulated(bench, &columns, v).into_iter().map(|e| bench.keep_large(e)).collect()
-        };
-        let right: Vec<Vec<ExprId>> = mass.iter().map(|row| kept(bench, row)).collect();
-        let turned: Vec<Vec<ExprId>> = transposed(&right).iter().map(|column| kept(bench, column)).collect();
-        let forces = kept(bench, forces);
-        let l = forces.len();
-        let sums = self.parameters(bench, declared);
-        let mut out = Substitution::new(self.restated.system.etas[..l].iter().copied().zip(sums));
-        let mut out = |bench: &mut Workbench, e: &ExprId| out.of(&mut bench.graph, *e);
-        Equations {
-            mass: transposed(&turned).iter().map(|row| row.iter().map(|e| out(bench, e)).collect()).collect(),
-            forces: forces.iter().map(|e| out(bench, e)).collect(),
-        }
-    }
-
-    /// The other parameters by those as declared; each sum of them once.
-    fn parameters(&self, bench: &mut Workbench, declared: &Mechanics) -> Vec<ExprId> {
-        let sums = applied(bench, &self.change.to, &declared.etas[..self.change.to.len()]);
-        sums.into_iter().map(|e| bench.graph.keep(e)).collect()
+        let Restated { system, projected, .. } = &self.restated;
+        self.change.equations(bench, &projected.equations, (declared, system))
     }
 
     /// Solves by the constraint forces, and returns to the parameters as declared.
@@ -172,14 +247,7 @@ impl InBaseParameters {
         let (squares, etas) = (projected.squares.as_ref()?, &system.etas[..system.forms.degrees]);
         let theirs = constraint_forces::dense_cost(bench, &projected.equations.mass[..etas.len()]);
         let solved = constraint_forces::solve_squares(bench, frame, squares, theirs, etas, forces)?;
-        // An acceleration that several of the others are differences of is computed once; written out, small ones have more in common.
-        let is_large = weighted_cost(&bench.graph, &solved.accelerations) > ALL_FORMS;
-        let is_shared = |k: usize| self.change.back.iter().filter(|row| !row[k].is_zero()).count() > 1;
-        let mut own = solved.accelerations;
-        for (_, e) in own.iter_mut().enumerate().filter(|(k, _)| is_large && is_shared(*k)) {
-            *e = bench.graph.keep(*e);
-        }
-        let accelerations = self.turned_back(bench, declared, &[], own);
+        let accelerations = self.change.accelerations(bench, (declared, system), solved.accelerations);
         Some(ByConstraintForces { accelerations, ..solved })
     }
 
@@ -187,26 +255,12 @@ impl InBaseParameters {
     pub(super) fn rates(&mut self, bench: &mut Workbench, declared: &Mechanics) -> Vec<Vec<ExprId>> {
         let n = declared.velocities.len();
         let found = self.restated.rates(bench, &mut Symmetry::default());
-        let back = |mut rates: Vec<ExprId>| {
-            let accelerations = rates.split_off(n);
-            self.turned_back(bench, declared, &rates, accelerations)
+        let systems = (declared, &self.restated.system);
+        let back = |rates: Vec<ExprId>| {
+            let (velocities, accelerations) = rates.split_at(n);
+            self.change.turned_back(bench, systems, velocities, accelerations)
         };
         found.into_iter().map(back).collect()
-    }
-
-    /// Returns the rates of the state with the parameters as declared; each sum of parameters is computed once.
-    fn turned_back(
-        &self,
-        bench: &mut Workbench,
-        declared: &Mechanics,
-        velocities: &[ExprId],
-        accelerations: Vec<ExprId>,
-    ) -> Vec<ExprId> {
-        let l = accelerations.len();
-        let sums = self.parameters(bench, declared);
-        let mut out = Substitution::new(self.restated.system.etas[..l].iter().copied().zip(sums));
-        let accelerations = applied(bench, &self.change.back, &accelerations);
-        velocities.iter().chain(&accelerations).map(|e| out.of(&mut bench.graph, *e)).collect()
     }
 }
 
@@ -220,29 +274,67 @@ fn applied(bench: &mut Workbench, matrix: &Matrix, vector: &[ExprId]) -> Vec<Exp
         .collect()
 }
 
-/// Sums of the matrix times a vector, each computed from one that was found before and the terms that it has beyond
-/// it. No two of these have opposite signs where rows of the matrix grow by one entry each.
-fn accumulated(bench: &mut Workbench, matrix: &Matrix, vector: &[ExprId]) -> Vec<ExprId> {
-    let count = |row: &[Rational]| row.iter().filter(|c| !c.is_zero()).count();
-    let mut order: Vec<usize> = (0..matrix.len()).collect();
-    order.sort_by_key(|k| count(&matrix[*k]));
-    let mut found: Vec<(usize, ExprId)> = Vec::new();
-    for k in order {
-        let mut best = (matrix[k].clone(), None);
-        for (other, e) in &found {
-            let beyond: Vec<Rational> = matrix[k].iter().zip(&matrix[*other]).map(|(a, b)| a - b).collect();
-            if count(&beyond) + 1 < count(&best.0) {
-                best = (beyond, Some(*e));
+/// Sums of a matrix times a vector, each computed from one that was found before and the terms that it has beyond it. No two of
+/// these have opposite signs where rows of the matrix grow by one entry each.
+struct PartialSums {
+    /// In the order in which they are computed.
+    steps: Vec<PartialSum>,
+}
+
+/// A sum that is computed from another one.
+struct PartialSum {
+    row: usize,
+    /// The row of the sum that is known before it.
+    known: Option<usize>,
+    /// The terms that it has beyond that sum.
+    beyond: Vec<(usize, Rational)>,
+}
+
+impl PartialSums {
+    fn new(matrix: &Matrix) -> Self {
+        let mut order: Vec<usize> = (0..matrix.len()).collect();
+        order.sort_by_key(|k| count(&matrix[*k]));
+        let mut steps: Vec<PartialSum> = Vec::new();
+        for row in order {
+            let own = &matrix[row];
+            let (mut least, mut known) = (count(own), None);
+            for step in &steps {
+                let beyond = own.iter().zip(&matrix[step.row]).filter(|(a, b)| a != b).count();
+                if beyond + 1 < least {
+                    (least, known) = (beyond, Some(step.row));
+                }
             }
+            let beyond = |s: usize| match known {
+                Some(other) => &own[s] - &matrix[other][s],
+                None => own[s].clone(),
+            };
+            let beyond = (0..own.len()).map(|s| (s, beyond(s))).filter(|(_, c)| !c.is_zero()).collect();
+            steps.push(PartialSum { row, known, beyond });
         }
-        let (beyond, known) = best;
-        let own = vector.iter().copied().zip(beyond).filter(|(_, c)| !c.is_zero());
-        let terms: Vec<_> = own.chain(known.map(|e| (e, Rational::ONE))).collect();
-        let sum = bench.graph.linear(&terms);
-        found.push((k, bench.graph.keep(sum)));
+        PartialSums { steps }
     }
-    found.sort_by_key(|(k, _)| *k);
-    found.into_iter().map(|(_, e)| e).collect()
+
+    /// The sums for a vector, with what is large kept whole.
+    fn kept(&self, bench: &mut Workbench, vector: &[ExprId]) -> Vec<ExprId> {
+        self.found(bench, vector).into_iter().map(|e| bench.keep_large(e)).collect()
+    }
+
+    /// The sums for a vector.
+    fn found(&self, bench: &mut Workbench, vector: &[ExprId]) -> Vec<ExprId> {
+        let mut found = vec![bench.graph.zero(); self.steps.len()];
+        for PartialSum { row, known, beyond } in &self.steps {
+            let own = beyond.iter().map(|(s, c)| (vector[*s], c.clone()));
+            let terms: Vec<_> = own.chain(known.map(|other| (found[other], Rational::ONE))).collect();
+            let sum = bench.graph.linear(&terms);
+            found[*row] = bench.graph.keep(sum);
+        }
+        found
+    }
+}
+
+/// The entries that differ from zero.
+fn count(row: &[Rational]) -> usize {
+    row.iter().filter(|c| !c.is_zero()).count()
 }
 
 fn transposed<T: Clone>(matrix: &[Vec<T>]) -> Vec<Vec<T>> {

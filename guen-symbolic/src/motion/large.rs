@@ -263,5 +263,14 @@ fn potential_forces(bench: &mut Workbench, system: &Mechanics, frame: &Frame) ->
             forces[*s].push(bench.graph.mul(*xi, *slope));
         }
     }
-    forces.into_iter().skip(1).map(|terms| bench.graph.sum(terms)).collect()
+    let sum = |terms: Vec<ExprId>| {
+        let several = terms.len() > 1;
+        let sum = bench.graph.sum(terms);
+        // Slopes along several coordinates have most of their terms in common.
+        match several.then(|| bench.graph.linear_parts(sum)) {
+            Some(parts) => bench.graph.linear(&parts),
+            None => sum,
+        }
+    };
+    forces.into_iter().skip(1).map(sum).collect()
 }

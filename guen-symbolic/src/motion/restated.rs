@@ -3,12 +3,34 @@
 use super::projection::Projected;
 use super::symmetry::Symmetry;
 use super::velocity_forms::VelocityPartials;
-use super::{Equations, Frame, Mechanics, Solution, decompose, equations, forces, poincare, projection};
+use super::{
+    Equations, Frame, KineticTerm, Mechanics, Solution, decompose, equations, forces, poincare, projection,
+};
 use crate::algebra::ExprId;
 use crate::geometry::Operators;
 use crate::motion::thresholds::ALL_FORMS;
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
+
+/// What every way to the equations of a system begins with.
+pub(super) struct Prepared {
+    pub(super) system: Mechanics,
+    pub(super) frame: Frame,
+    pub(super) partials: VelocityPartials,
+    pub(super) terms: Vec<KineticTerm>,
+    pub(super) forces: Vec<ExprId>,
+}
+
+impl Prepared {
+    pub(super) fn new(bench: &mut Workbench, system: Mechanics, operators: Operators) -> Option<Self> {
+        let mut frame = Frame::new(bench, &system, operators);
+        let mut partials = VelocityPartials::of_system(bench, &system);
+        let symbols: Vec<ExprId> = system.velocities.iter().chain(&system.etas).copied().collect();
+        let terms = decompose(bench, &mut partials, &symbols, system.kinetic_energy).ok()?;
+        let forces = forces::generalised_forces(bench, &system, &mut frame, &mut partials);
+        Some(Prepared { system, frame, partials, terms, forces })
+    }
+}
 
 /// A system derived once more.
 pub(super) struct Restated {
@@ -20,11 +42,8 @@ pub(super) struct Restated {
 
 impl Restated {
     pub(super) fn new(bench: &mut Workbench, system: Mechanics, operators: Operators) -> Option<Self> {
-        let mut frame = Frame::new(bench, &system, operators);
-        let mut partials = VelocityPartials::of_system(bench, &system);
-        let symbols: Vec<ExprId> = system.velocities.iter().chain(&system.etas).copied().collect();
-        let terms = decompose(bench, &mut partials, &symbols, system.kinetic_energy).ok()?;
-        let forces = forces::generalised_forces(bench, &system, &mut frame, &mut partials);
+        let prepared = Prepared::new(bench, system, operators)?;
+        let Prepared { system, mut frame, mut partials, terms, forces } = prepared;
         let l = system.forms.degrees;
         let projected = projection::equations(bench, &system, &mut frame, &mut partials, &terms, 0..l);
         Some(Restated { system, frame, forces, projected })

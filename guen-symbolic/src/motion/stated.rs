@@ -1,7 +1,7 @@
 //! The equations of motion as they are stated: by the definition and by projection, compared; of bodies, as they were put up at
 //! the root of their tree, where that is much shorter.
 
-use super::base_parameters::{self, InBaseParameters};
+use super::base_parameters::{Change, InBaseParameters};
 use super::body_axes::InBodyAxes;
 use super::equations::forms;
 use super::fault::{DerivationError, affordable};
@@ -66,13 +66,17 @@ impl Stated {
         generalised_forces: &[ExprId],
     ) -> Result<Self, DerivationError> {
         affordable(bench)?;
-        // In relative angles a form has all joints before it: their equations come from the rates of the base angles.
-        if large::is_large(bench, system, terms)
-            && (large::has_many_parameters(system) || !base_parameters::are_others(bench, system, frame))
-        {
+        // Particles have a way of their own, and are looked at as bodies after it.
+        let turns = system.structure.frames().len() > 1;
+        if large::is_large(bench, system, terms) {
             let mut definition = Definition::new(bench, system, generalised_forces);
             let of = (system, &mut *frame);
-            let found = large::rates(bench, of, partials, terms, generalised_forces, &mut definition)?;
+            // In relative angles a form has all joints before it.
+            let others = if turns { None } else { Change::new(bench, system, of.1) };
+            let found = match others {
+                Some(change) => change.large_rates(bench, of, (&mut definition, generalised_forces))?,
+                None => large::rates(bench, of, partials, terms, generalised_forces, &mut definition)?,
+            };
             if let Some(alone) = found {
                 return Ok(Stated {
                     definition,
@@ -93,8 +97,6 @@ impl Stated {
         }
         let velocities = weighted_cost(&bench.graph, &frame.velocities);
         let is_large = is_large(bench, system) || velocities > MULTIPLIED_VELOCITIES;
-        // Particles have a way of their own, and are looked at as bodies after it.
-        let turns = system.structure.frames().len() > 1;
         let mut bodies = ((is_large || turns) && !bench.leaves_out(BODIES)).then(|| {
             let least = if is_large { 0 } else { least(bench, system, frame) };
             let is_stated = |cost: u64| is_large || promises_least(cost, least);

@@ -61,7 +61,7 @@ const FIRST_LCM: i64 = 12;
 /// The least common denominator above which an argument is opaque.
 const LARGEST_LCM: i64 = 1 << 50;
 /// The number of terms above which an argument is not multiplied out.
-const ARGUMENT_TERMS: usize = 64;
+const ARGUMENT_TERMS: usize = 200;
 /// Higher powers of sums in arguments are not multiplied out.
 const ARGUMENT_POWER: i32 = 4;
 
