@@ -12,7 +12,7 @@ use crate::motion::thresholds::ALL_FORMS;
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
-/// What every way to the equations of a system begins with.
+/// A system with what every way to its equations begins with: operators, terms of the energy, generalised forces.
 pub(super) struct Prepared {
     pub(super) system: Mechanics,
     pub(super) frame: Frame,
