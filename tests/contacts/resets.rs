@@ -17,6 +17,27 @@ mechanical_system! {
     }
 }
 
+/// A zero at a sample belongs to the run, which goes on there with other inputs.
+#[test]
+fn resets_whose_zeros_fall_on_samples_happen() {
+    let slider = Clocked::default().prepare().unwrap();
+    let start = clocked::State { x: 0.25, v: -0.5, ..Default::default() };
+    for period in [0.05, 0.1, 0.125, 0.15, 0.25, 0.5] {
+        let held =
+            slider.simulation(&start).hold(period, |_, _: &clocked::State| clocked::Inputs { force: 0.75 });
+        let motion = held.run(0.0..1.75).unwrap();
+        let times: Vec<f64> = motion.transitions().iter().map(|tr| tr.t).collect();
+        assert_eq!(times.len(), 3, "{period}: {times:?}");
+        assert!(times.iter().zip([0.5, 1.0, 1.5]).all(|(t, k)| (t - k).abs() < 1e-12), "{period}: {times:?}");
+        let v = -0.5 + 0.375 * 1.75 + 3.0 * 1.5;
+        assert!(
+            (motion.end().v - v).abs() < 1e-12 && motion.end().count == 3.0,
+            "{period}: {:?}",
+            motion.end()
+        );
+    }
+}
+
 #[test]
 fn a_clock_starts_anew_and_pushes() {
     let slider = Clocked::default().prepare().unwrap();

@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 
 use guen::lanes::{Backend, LaneTask, Lanes, Width, dispatch_on};
 use guen::prelude::*;
-use guen::steppers::{Gauss4, Radau5};
+use guen::steppers::{Gauss4, Radau5, reversible};
 use guen::{Actuated, IntegrationError, Laned, System, WithScalar};
 
 use crate::declared::*;
@@ -19,6 +19,20 @@ guen::mechanical_system! {
         kinetic_energy = 1/2*v^2 + 0*u;
         forces { push along dot(x); }
         contacts { hold: grip = dot(x), limit = F; }
+    }
+}
+
+guen::mechanical_system! {
+    /// A slider that is turned back at one, without anything that touches.
+    pub system Returned {
+        constants { m > 0 = 1 }
+        inputs { force }
+        coordinates { x }
+        parameters { v = dot(x); }
+        kinetic_energy = m/2*v^2;
+        forces { force along v; }
+        resets { back: x - 1 rises, v = -v; }
+        scene Free { fix m = 2; track x; }
     }
 }
 
@@ -48,6 +62,27 @@ fn every_method_refuses_a_system_with_contacts() {
     );
     refused!(Radau5::new(1e-6, 1e-6), Gauss4::new(0.01));
     run(Rk4::new(0.01).integrate(&ball, 0.0, &start, 3.0, |_, _| ControlFlow::Continue(())).map(drop));
+}
+
+#[test]
+fn resets_without_contacts_are_refused_alike() {
+    let slider = Returned::default().prepare().unwrap();
+    let driven = slider.driven(returned::Inputs { force: 0.0 });
+    let start = [0.5, 1.0];
+    let method = Dop853::new(1e-9, 1e-9);
+    is_refused(&Integration::new(&driven, 0.0, &start).run(&method, 2.0).unwrap_err(), &start);
+    let by_law = slider.with_inputs(|_, _| returned::Inputs { force: 0.0 });
+    is_refused(&Integration::new(&by_law, 0.0, &start).run(&method, 2.0).unwrap_err(), &start);
+    let over_duals = Dop853::new(1e-9, 1e-9);
+    is_refused(&reversible(&slider, &[0.0], &over_duals, 0.0, &start, 2.0, 1e-6).unwrap_err(), &start);
+    let scene = returned::Free::default().prepare().unwrap().driven(returned::free::Inputs { force: 0.0 });
+    is_refused(&Integration::new(&scene, 0.0, &start).run(&method, 2.0).unwrap_err(), &start);
+    let end = driven.simulate(&start.into(), 0.0..2.0).unwrap().end();
+    assert!((end.x + 0.5).abs() < 1e-12 && end.v == -1.0, "{end:?}");
+
+    let ball = BouncingBall::default().prepare().unwrap();
+    let over_duals = Dop853::new(1e-9, 1e-9);
+    is_refused(&reversible(&ball, &[], &over_duals, 0.0, &[1.0, 0.0], 1.0, 1e-6).unwrap_err(), &[1.0, 0.0]);
 }
 
 #[test]

@@ -152,3 +152,33 @@ fn lanes() {
     let gathered: disc::Prepared<f64> = Laned::gather::<f64>(|_| &members[1]);
     assert_eq!(gathered, members[1]);
 }
+
+mechanical_system! {
+    /// A pendulum whose stop and stretch are declared in degrees, between others.
+    pub system Tilted {
+        constants { E: J = 1, I: kg*m^2 = 1, a: deg = 30, n: deg in -a..a = 5, l: deg in a..90 = 40, twice: deg in 0..3*a = 2*a }
+        coordinates { q: rad }
+        parameters { w = dot(q); }
+        kinetic_energy = I/2*w^2;
+        potential_energy = E*(n*q + l*q + twice*q);
+    }
+}
+
+#[test]
+fn limits_in_degrees_are_compared_in_degrees() {
+    let tilted = Tilted::default().prepare().unwrap();
+    // 5, 40 and 60 degrees.
+    near(-tilted.rhs(0.0, &tilted::State::default()).w, 105.0_f64.to_radians());
+    let refused = |tilted: Tilted, bound: &str| {
+        let error = tilted.prepare().unwrap_err();
+        assert!(error.to_string().contains(bound), "{error}");
+    };
+    for n in [-29.9, 0.53, 29.9] {
+        Tilted { n, ..Tilted::default() }.prepare().unwrap();
+    }
+    refused(Tilted { n: 30.1, ..Tilted::default() }, "`n in -a..a`");
+    refused(Tilted { n: -30.1, ..Tilted::default() }, "`n in -a..a`");
+    refused(Tilted { l: 1.0, ..Tilted::default() }, "`l in a..90`");
+    refused(Tilted { a: 50.0, ..Tilted::default() }, "`l in a..90`");
+    refused(Tilted { twice: 91.0.into(), ..Tilted::default() }, "`twice in 0..3*a`");
+}

@@ -275,6 +275,7 @@ fn systems(
     });
     let prices = integrated::prices(subject, layout, &checks);
     let restored = integrated::restored(subject, layout);
+    let modes = integrated::through_modes(subject);
     let differentiable = integrated::differentiable(layout, false);
     let simulate = integrated::simulate(subject, layout, false, false);
     let lanes = lanes::carried(layout);
@@ -320,7 +321,7 @@ fn systems(
             #prices
         }
         #differentiable
-        __guen::linearizable!(#size, #count; by duals);
+        __guen::linearizable!(#size, #count; by duals #modes);
         #simulate
         #monitored
         #renormalize

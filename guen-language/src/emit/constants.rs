@@ -151,8 +151,8 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
     let limits = limits::has_any(subject).then(|| quote!(prepared.check_limits()?;));
     let with_scalar = with_scalar::items(layout, &structure, marker_value.as_ref());
     let what = if layout.is_whole { "system" } else { "scene" };
-    let through_modes = if integrated::has_contacts(subject) {
-        " Methods take it in a mode, `in_mode(mode)`: its own rates know no contacts, and a run by them ends before its first step."
+    let through_modes = if integrated::has_modes(subject) {
+        " Methods take it in a mode, `in_mode(mode)`: its own rates know no contacts and no resets, and a run by them ends before its first step."
     } else {
         ""
     };

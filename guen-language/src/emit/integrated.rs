@@ -54,15 +54,21 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
     }
 }
 
-/// The method `restore` of a system with contacts, which ends runs that would ignore them at their first step.
+/// The method `restore` of a system with contacts or resets, which ends runs that would ignore them at their first step.
 pub(super) fn restored(subject: &Subject<'_, '_>, layout: &Layout) -> Option<TokenStream> {
     let size = layout.size;
-    has_contacts(subject).then(|| quote!(__guen::restored_by_modes!(#size);))
+    has_modes(subject).then(|| quote!(__guen::restored_by_modes!(#size);))
 }
 
-/// Whether the system itself moves unlike what is declared: something can touch, grip or lock.
-pub(super) fn has_contacts(subject: &Subject<'_, '_>) -> bool {
-    subject.model.contacts.as_ref().is_some_and(|contacts| !contacts.entries.is_empty())
+/// A word for macros that implement what runs by the rates alone: a motion of the system goes through modes.
+pub(super) fn through_modes(subject: &Subject<'_, '_>) -> Option<TokenStream> {
+    has_modes(subject).then(|| quote!(; through modes))
+}
+
+/// Whether the rates alone move unlike what is declared: something can touch, grip or lock, or has new values at a reset.
+pub(super) fn has_modes(subject: &Subject<'_, '_>) -> bool {
+    let contacts = subject.model.contacts.as_ref().is_some_and(|contacts| !contacts.entries.is_empty());
+    contacts || subject.level.contacts.as_ref().is_some_and(|facts| !facts.resets.is_empty())
 }
 
 /// The operations of checks: an estimate from the counts of their programs.
@@ -182,7 +188,7 @@ pub(super) fn simulate(
 ) -> TokenStream {
     let (owner, size) = (owner(layout), layout.size);
     // With contacts it stays with what `restore` says.
-    let positions = (positions && !has_contacts(subject)).then(|| quote!(__guen::onto_constraints!(#size);));
+    let positions = (positions && !has_modes(subject)).then(|| quote!(__guen::onto_constraints!(#size);));
     let names = layout.state.names().iter().cloned();
     let units = units(subject.model, names);
     // A carried form lies in a module of its own, and its domain beside the system's.

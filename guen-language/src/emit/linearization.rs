@@ -7,6 +7,7 @@ use guen_symbolic::Pattern;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use super::integrated;
 use super::layout::{Layout, inputs};
 use super::signatures::{self, Signature};
 use super::text::{cost, tokens};
@@ -44,6 +45,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let methods = [Some(rates), outputs].into_iter().flatten().map(|target| target.method(layout));
     let (size, count) = (layout.size, layout.inputs);
     let given = if count == 0 { quote!() } else { quote!(, inputs) };
+    let modes = integrated::through_modes(subject);
     let cost = match level.program(function::LINEARIZATION) {
         Some(program) => {
             let cost = cost(&program.cost);
@@ -58,7 +60,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         impl<R: __guen::Real> Prepared<R> {
             #(#methods)*
         }
-        __guen::linearizable!(#size, #count #given);
+        __guen::linearizable!(#size, #count #given #modes);
     }
 }
 

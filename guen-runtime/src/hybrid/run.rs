@@ -431,7 +431,7 @@ where
             }
             self.samples_before(&in_mode, after.time, &at);
             (self.place.t, self.place.state) = (after.time, after.state);
-            self.place.arm_resets(false);
+            self.place.arm_resets();
             self.slow_down(&after.state);
         }
     }

@@ -31,14 +31,30 @@ where
         }
     }
 
-    /// Finds out which resets have functions that are on the side from which they go through zero: the others wait until they are.
-    pub(super) fn arm_resets(&mut self, anew: bool) {
+    /// Finds out which resets have functions that have come to the side from which they go through zero: the others wait until they do.
+    pub(super) fn arm_resets(&mut self) {
         for (s, _) in H::SIGNALS.iter().enumerate().filter(|(_, signal)| !signal.is_switch()) {
-            if anew || self.sides.signals[s] == 0.0 {
-                let inside = side(&self.in_mode, &self.sides, Function::Signal(s), self.t, &self.state) > 0;
-                self.sides.signals[s] = if inside { 1.0 } else { 0.0 };
+            if self.sides.signals[s] == 0.0 && self.side_of_signal(s, &self.state) > 0 {
+                self.sides.signals[s] = 1.0;
             }
         }
+    }
+
+    /// Finds it out anew where a mode begins. A reset that waited no longer, and whose zero is where the mode begins, has not happened yet
+    /// if neither it nor anything else that happens here has moved its function: inputs that change there do not take it away.
+    pub(super) fn arm_resets_anew(&mut self, ready: &[f64; S], fired: &Fired<C, S>, before: &[f64; N]) {
+        for (s, _) in H::SIGNALS.iter().enumerate().filter(|(_, signal)| !signal.is_switch()) {
+            let is_ready = match self.side_of_signal(s, &self.state) {
+                0 => ready[s] != 0.0 && !fired.signals[s] && self.side_of_signal(s, before) == 0,
+                side => side > 0,
+            };
+            self.sides.signals[s] = if is_ready { 1.0 } else { 0.0 };
+        }
+    }
+
+    /// The side of zero on which the function of a signal is at a state: zero where it is no more than rounding.
+    fn side_of_signal(&self, s: usize, state: &[f64; N]) -> i8 {
+        side(&self.in_mode, &self.sides, Function::Signal(s), self.t, state)
     }
 
     /// Lets resets wait that have happened and have left their functions where they were: there they are zero, whatever rounding says.

@@ -100,7 +100,9 @@ where
         }
         next.begins = false;
         next.begin_mode(self, &locks, was_reset);
-        next.arm_resets(true);
+        // A run that begins on a zero has it behind it.
+        let ready = if self.begins { [0.0; S] } else { self.sides.signals };
+        next.arm_resets_anew(&ready, fired, &state_before);
         next.wait_at_zeros(fired, &state_before);
 
         let mut elements = fired.elements();

@@ -88,6 +88,9 @@ impl<R: Real, S: Linearizable<R, N, M> + ?Sized, const N: usize, const M: usize>
 /// assert_eq!((rate.value, rate.tangent), (6.0, [2.0]));
 /// ```
 pub trait Liftable<B: Real, const N: usize, const M: usize> {
+    /// Whether a motion has contacts or resets, which the rates alone do not know: runs by them are refused.
+    const THROUGH_MODES: bool = false;
+
     /// The rates of the state over a real into which `B` is embedded.
     fn lifted_rates<S: Real + Lift<B>>(&self, t: S, state: &[S; N], inputs: &[S; M]) -> [S; N];
 }

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use guen_symbolic::{Bound, ExprId, Graph, Role, Roles};
+use guen_symbolic::{Bound, ExprId, Role, Roles};
 
 use super::Resolver;
 use crate::diagnostics::Fault;
@@ -22,11 +22,13 @@ impl<'a> Resolver<'a, '_> {
             Some(BoundKind::Nonzero) => Bound::NonZero,
         };
         self.eval.entry = Some(constant.name.text.clone());
+        let is_degrees = constant.unit.as_ref().is_some_and(|unit| unit.is_degrees);
         let default = constant.default.as_ref().map(|e| self.eval.scalar_at(Place::Default, e));
+        let default = default.map(|e| e.map(|e| self.in_unit(e, is_degrees)));
         if let (Some(Ok(value)), Some(default)) = (&default, &constant.default) {
             self.check_default(*value, bound, default);
         }
-        let limits = constant.limits.as_deref().and_then(|limits| self.constant_limits(limits));
+        let limits = constant.limits.as_deref().and_then(|limits| self.constant_limits(limits, is_degrees));
         if let (Some(Ok(value)), Some(limits), Some(written)) = (&default, limits, &constant.default) {
             self.check_limited_default(*value, limits, written);
         }
@@ -37,15 +39,12 @@ impl<'a> Resolver<'a, '_> {
         });
         let graph = &mut self.eval.bench.graph;
         let symbol = graph.bounded_symbol(&constant.name.text, Role::Constant, promise);
+        let default = default.and_then(Result::ok);
         let mut value = symbol;
-        let mut default = default.and_then(Result::ok);
-        if constant.unit.as_ref().is_some_and(|unit| unit.is_degrees) {
+        if is_degrees {
             // The field is in degrees, and everything else in radians.
             let degree = graph.degree();
             value = graph.mul(symbol, degree);
-            // A number is in the unit of its constant.
-            let is_number = |graph: &Graph, e| graph.symbols_in(&[e]).is_empty();
-            default = default.map(|e| if is_number(graph, e) { e } else { graph.div(e, degree) });
         }
         self.declare_symbol(&constant.name, Category::Constant, value);
         self.constants.push(ConstantEntry {
@@ -57,6 +56,16 @@ impl<'a> Resolver<'a, '_> {
             is_derived: false,
             symbol,
         });
+    }
+
+    /// A default or a limit in the unit of its constant: a number is, and what depends on constants is in radians.
+    fn in_unit(&mut self, e: ExprId, is_degrees: bool) -> ExprId {
+        let graph = &mut self.eval.bench.graph;
+        if !is_degrees || graph.symbols_in(&[e]).is_empty() {
+            return e;
+        }
+        let degree = graph.degree();
+        graph.div(e, degree)
     }
 
     /// Notes which constants follow others.
@@ -94,9 +103,11 @@ impl<'a> Resolver<'a, '_> {
     }
 
     /// The limits of a constant; two numbers have to stand in their order.
-    fn constant_limits(&mut self, limits: &[Expression; 2]) -> Option<[ExprId; 2]> {
+    fn constant_limits(&mut self, limits: &[Expression; 2], is_degrees: bool) -> Option<[ExprId; 2]> {
         let values = limits.each_ref().map(|e| self.eval.scalar_at(Place::Default, e).ok());
-        let [Some(lower), Some(upper)] = values else { return None };
+        let [Some(lower), Some(upper)] = values.map(|e| e.map(|e| self.in_unit(e, is_degrees))) else {
+            return None;
+        };
         let before = self.eval.faults.count();
         self.in_order(lower, upper, limits);
         (self.eval.faults.count() == before).then_some([lower, upper])

@@ -296,23 +296,27 @@ macro_rules! reduce {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! linearizable {
-    ($([$($functions:tt)*])? $size:literal, $count:literal; by duals) => {
+    (@ is modes) => { true };
+    ($([$($functions:tt)*])? $size:literal, $count:literal; by duals $(; through $modes:ident)?) => {
         $crate::linearizable!(
-            @ rates [$($($functions)*)?] $size, $count, [$crate::linearized(self, t, state, given)] (self, t, state, given)
+            @ rates [$($($functions)*)?] [$($modes)?] $size, $count, [$crate::linearized(self, t, state, given)]
+            (self, t, state, given)
         );
     };
-    ($([$($functions:tt)*])? $size:literal, $count:literal $(, $inputs:ident)?) => {
-        $crate::linearizable!(@ rates [$($($functions)*)?] $size, $count, [{
+    ($([$($functions:tt)*])? $size:literal, $count:literal $(, $inputs:ident)? $(; through $modes:ident)?) => {
+        $crate::linearizable!(@ rates [$($($functions)*)?] [$($modes)?] $size, $count, [{
             let _ = given;
             $(let $inputs = &::core::convert::From::from(*given);)?
             self.linearize(t, &::core::convert::From::from(*state) $(, $inputs)?)
         }] (self, t, state, given));
     };
     (
-        @ rates [$($F:ident $N:literal)*] $size:literal, $count:literal, [$linearization:expr]
+        @ rates [$($F:ident $N:literal)*] [$($modes:ident)?] $size:literal, $count:literal, [$linearization:expr]
         ($self:ident, $t:ident, $state:ident, $given:ident)
     ) => {
         impl<R: $crate::Real $(, $F: $crate::Smooth<$N>)*> $crate::Liftable<R, $size, $count> for Prepared<R $(, $F)*> {
+            $(const THROUGH_MODES: bool = $crate::linearizable!(@ is $modes);)?
+
             #[inline]
             fn lifted_rates<S: $crate::Real + $crate::Lift<R>>(
                 &self,

@@ -85,7 +85,7 @@ where
 ///
 /// # Errors
 ///
-/// [`Cause::Irreversible`] with the last time and state from which the start can be found again; everything that stops
+/// [`Cause::Contacts`] for a system with contacts or resets; [`Cause::Irreversible`] with the last time and state from which the start can be found again; everything that stops
 /// the method. Guards watch that all is finite, and nothing else.
 pub fn reversible<Q, S, R, const N: usize, const M: usize>(
     system: &S,
@@ -124,18 +124,22 @@ where
         good = (time.value, state.map(|x| x.value));
         ControlFlow::Continue(())
     };
-    let run = if limit >= 0.0 {
-        Integration::new(&varied, Dual::constant(t0), &seeded(x0))
+    let refused = if S::THROUGH_MODES {
+        Some(Cause::Contacts)
+    } else {
+        (!(limit >= 0.0)).then_some(Cause::Setting(Setting::Guard))
+    };
+    let run = match refused {
+        None => Integration::new(&varied, Dual::constant(t0), &seeded(x0))
             .guard(Guard::FINITE)
             .observe(&mut check)
-            .run(method, Dual::constant(t1))
-    } else {
-        Err(IntegrationError {
+            .run(method, Dual::constant(t1)),
+        Some(cause) => Err(IntegrationError {
             time: Dual::constant(t0),
             state: seeded(x0),
-            cause: Cause::Setting(Setting::Guard),
+            cause,
             statistics: Default::default(),
-        })
+        }),
     };
     let done = run.map_err(|error| IntegrationError {
         time: error.time.value,
