@@ -97,11 +97,12 @@ impl<const N: usize> Recording<N> {
     /// ```
     /// use guen_study::Recording;
     ///
-    /// let mut recording = Recording::new(&["x"]);
+    /// let mut recording = Recording::new(&["x"]).with_units(&["m"]);
     /// recording.record(0.1, &[f64::INFINITY]);
     /// let path = std::env::temp_dir().join(format!("guen-docs-{}.json", std::process::id()));
     /// recording.save_json(&path)?;
-    /// assert_eq!(Recording::<1>::load_json(&["x"], &path)?, recording);
+    /// // The file has no units: they are given with the names.
+    /// assert_eq!(Recording::<1>::load_json(&["x"], &path)?.with_units(&["m"]), recording);
     /// # std::fs::remove_file(&path).unwrap();
     /// # Ok::<(), guen_study::StudyError>(())
     /// ```
@@ -113,7 +114,8 @@ impl<const N: usize> Recording<N> {
         replace_file(path, |out| Ok(serde_json::to_writer(out, self)?))
     }
 
-    /// Reads a recording of a state with these names from a file of JSON.
+    /// Reads a recording of a state with these names from a file of JSON. The file has no units, which
+    /// [`with_units`](Recording::with_units) gives to what is read.
     ///
     /// # Errors
     ///

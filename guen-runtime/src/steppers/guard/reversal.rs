@@ -126,8 +126,10 @@ where
     };
     let refused = if S::THROUGH_MODES {
         Some(Cause::Contacts)
+    } else if limit.is_nan() || limit < 0.0 {
+        Some(Cause::Setting(Setting::Guard))
     } else {
-        (!(limit >= 0.0)).then_some(Cause::Setting(Setting::Guard))
+        None
     };
     let run = match refused {
         None => Integration::new(&varied, Dual::constant(t0), &seeded(x0))
