@@ -216,3 +216,105 @@ fn what_inputs_reach() {
     let found = controllability(&linear, 1e-9);
     assert_eq!((found.rank, found.zero_modes), (0, 3));
 }
+
+mod on_constraints {
+    use super::*;
+    use guen::mechanical_system;
+
+    mechanical_system! {
+        /// A pendulum in Cartesian coordinates, pushed to the side.
+        pub system Hanging {
+            constants { m > 0 = 2, l > 0 = 1.5, g = 9.81 }
+            inputs { push }
+            coordinates { x, y }
+            holonomic { rod: x^2 + y^2 = l^2; }
+            parameters { w = (x*dot(y) - y*dot(x))/l^2; }
+            particles { m at vec(x, y); }
+            forces { push along dot(x); }
+            gravity = vec(0, -g);
+        }
+    }
+
+    mechanical_system! {
+        /// Four bars of which the first one stands, hanging from it.
+        pub system FourBar {
+            constants { m > 0 = 1, a > 0 = 1, b > 0 = 2, c > 0 = 1.5, d > 0 = 2, g = 9.81 }
+            coordinates { p, q, r }
+            let A = a*vec(cos(p), sin(p));
+            let B = A + b*vec(cos(q), sin(q));
+            let C = vec(d, 0) + c*vec(cos(r), sin(r));
+            holonomic {
+                level: B.x - C.x = 0;
+                upright: B.y - C.y = 0;
+            }
+            particles { m at A; m at (A + B)/2; m at B; }
+            gravity = vec(0, -g);
+        }
+    }
+
+    mechanical_system! {
+        /// A bead on a line that moves away.
+        pub system Moved {
+            constants { v = 1 }
+            coordinates { x, y }
+            holonomic { line: x - v*t = 0; }
+            kinetic_energy = (dot(x)^2 + dot(y)^2)/2;
+            potential_energy = y^2/2;
+        }
+    }
+
+    #[test]
+    fn a_pendulum_in_two_coordinates_hangs_at_one_place() {
+        let pendulum = Hanging::default().prepare().unwrap();
+        for (push, guess) in [(0.0, [0.6, -0.8]), (5.0, [0.1, -3.0]), (-20.0, [-1.0, -1.0])] {
+            let state = hanging::State { x: guess[0], y: guess[1], w: 0.1 };
+            let (found, _) = pendulum.equilibrium(0.0, &state, &hanging::Inputs { push }, &["push"]).unwrap();
+            let pull = f64::hypot(push, 2.0 * 9.81);
+            let expected = [1.5 * push / pull, -1.5 * 2.0 * 9.81 / pull, 0.0];
+            for (found, expected) in <[f64; 3]>::from(found).iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-13, "{found} {expected}");
+            }
+        }
+        // Every place is held by some push, so that one has to be chosen.
+        let guess = hanging::State { x: 0.9, y: -1.3, w: 0.0 };
+        let none = hanging::Inputs { push: 0.0 };
+        assert_eq!(pendulum.equilibrium(0.0, &guess, &none, &[]), Err(SteadyError::Family { dimension: 1 }));
+        let (found, held) = pendulum.equilibrium(0.0, &guess, &none, &["x"]).unwrap();
+        assert!(found.x == 0.9 && (found.y + 1.2).abs() < 1e-13);
+        assert!((held.push - 2.0 * 9.81 * 0.9 / 1.2).abs() < 1e-11, "{held:?}");
+        // There is none outside of the circle.
+        let outside = hanging::State { x: 1.6, ..guess };
+        let found = pendulum.equilibrium(0.0, &outside, &none, &["x"]);
+        assert!(matches!(found, Err(SteadyError::NotFound { .. })), "{found:?}");
+    }
+
+    #[test]
+    fn a_closed_chain_hangs_where_its_energy_is_least() {
+        let bars = FourBar::default().prepare().unwrap();
+        let guess = four_bar::State { p: -0.5, q: -0.3, r: -1.5, ..Default::default() };
+        let found = bars.equilibrium(0.0, &guess, &[]).unwrap();
+        let rest = bars.residuals(0.0, &found);
+        assert!(rest.level.abs() < 1e-12 && rest.upright.abs() < 1e-12, "{found:?} {rest:?}");
+        let rates: [f64; 4] = bars.rhs(0.0, &found).into();
+        assert!(rates.iter().all(|rate| rate.abs() < 1e-11), "{rates:?}");
+        // Beside it, on the constraints, the potential energy is larger or smaller on both sides.
+        let energy = |p: f64| {
+            let beside = four_bar::Coordinates { p, ..found.coordinates() };
+            let beside = bars.consistent(0.0, &beside, &["p"]).unwrap();
+            -bars.force_function(0.0, &four_bar::State { p, q: beside.q, r: beside.r, ..found })
+        };
+        let [before, at, behind] = [-1e-3, 0.0, 1e-3].map(|step| energy(found.p + step));
+        assert!(
+            (before - at) * (behind - at) > 0.0 && (before - behind).abs() < 1e-7,
+            "{before} {at} {behind}"
+        );
+    }
+
+    #[test]
+    fn what_constraints_move_does_not_rest() {
+        let bead = Moved::default().prepare().unwrap();
+        let guess = moved::State { x: 0.3, y: 0.5, ..Default::default() };
+        let found = bead.equilibrium(0.3, &guess, &[]);
+        assert!(matches!(found, Err(SteadyError::NotFound { residual }) if residual >= 0.9), "{found:?}");
+    }
+}

@@ -21,6 +21,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let reduce = reduce(subject, layout);
     let reactions = reactions(subject, layout);
     let (size, count, given) = (layout.size, layout.inputs, given(layout));
+    let on = (!subject.level.selection.holonomic.is_empty()).then(|| quote!(; on constraints));
     let reduced = size - known_combinations(&subject.level.derivation).len();
     quote! {
         /// The size of the reduced basis: the positions that the integrable constraints leave independent, and the
@@ -33,7 +34,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         #dynamics
         impl<R: __guen::Ordered + __guen::Lift<R>> Prepared<R> {
             #inverse
-            __guen::steady_motions!(#size, #count #given);
+            __guen::steady_motions!(#size, #count #given #on);
             #reduce
         }
         #reactions

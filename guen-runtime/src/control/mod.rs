@@ -7,7 +7,7 @@
 //!
 //! | question | answer |
 //! | --- | --- |
-//! | where does it rest, or turn steadily? | [`steady`] |
+//! | where does it rest, or turn steadily? | [`steady`], [`steady_on_constraints`] |
 //! | how does it deviate, on its leaf? | [`Leaf::reduce`], [`Reduced`] |
 //! | what happens over one period? | [`c2d`], [`ZeroOrderHold`], [`FlowMap`] |
 //! | what can the inputs reach? | [`controllability`] |
@@ -19,6 +19,7 @@
 
 mod controllability;
 mod discrete;
+mod held;
 mod inverse;
 mod operational;
 mod poles;
@@ -31,6 +32,7 @@ mod tests;
 pub use crate::linear_algebra::dense::solve;
 pub use controllability::{Controllability, Uncontrollable, controllability};
 pub use discrete::{DiscreteError, FlowMap, ZeroOrderHold, c2d};
+pub use held::steady_on_constraints;
 pub use inverse::{
     InverseDynamicsError, MassForm, affine_inverse_dynamics, inverse_dynamics, inverse_dynamics_from,
 };

@@ -193,31 +193,34 @@ macro_rules! jacobians {
     };
 }
 
-/// `steady_motion` and `equilibrium`, with the numbers of states and of inputs.
+/// `steady_motion` and `equilibrium`, with the numbers of states and of inputs; on constraints on positions with a word for these.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! steady_motions {
-    ($size:literal, $count:literal) => {
+    ($size:literal, $count:literal $(; on $constraints:ident)?) => {
         $crate::steady_motions!(
-            @ $size, $count, State<R>, [], [], (state, []) => ::core::convert::From::from(state);
+            @ [$($constraints)?] $size, $count, State<R>, [], [], (state, []) => ::core::convert::From::from(state);
         );
     };
-    ($size:literal, $count:literal, $inputs:ident) => {
+    ($size:literal, $count:literal, $inputs:ident $(; on $constraints:ident)?) => {
         $crate::steady_motions!(
-            @ $size, $count, (State<R>, Inputs<R>), ::core::convert::From::from(*$inputs), Inputs::<f64>::NAMES,
+            @ [$($constraints)?] $size, $count, (State<R>, Inputs<R>), ::core::convert::From::from(*$inputs),
+            Inputs::<f64>::NAMES,
             (state, held) => (::core::convert::From::from(state), ::core::convert::From::from(held));
             $inputs
         );
     };
+    (@ search []) => { $crate::control::steady };
+    (@ search [constraints]) => { $crate::control::steady_on_constraints };
     (
-        @ $size:literal, $count:literal, $Motion:ty, $held:expr, $names:expr, $found:pat => $motion:expr;
+        @ $on:tt $size:literal, $count:literal, $Motion:ty, $held:expr, $names:expr, $found:pat => $motion:expr;
         $($inputs:ident)?
     ) => {
         /// A steady motion near a guess: the rates of everything vanish but of what is `drifting`, such as the place of a
         /// car that drives in a circle.
         ///
-        /// The search stays near the guess. What is fixed, and what drifts, stays as it is there; names are those of the
-        /// state and of the inputs. Newton's method with the exact linearisation.
+        /// The search stays near the guess, and on the holonomic constraints. What is fixed, and what drifts, stays as it is
+        /// in the guess; names are those of the state and of the inputs. Newton's method with the exact linearisation.
         ///
         /// # Errors
         ///
@@ -229,14 +232,15 @@ macro_rules! steady_motions {
             let request = $crate::control::SteadyMotion::<$size, $count>::of_names(
                 drifting, fixed, &State::<f64>::NAMES, &$names,
             )?;
-            let $found = $crate::control::steady(self, t, &state.__guen_array(), &$held, &request)?;
+            let search = $crate::steady_motions!(@ search $on);
+            let $found = search(self, t, &state.__guen_array(), &$held, &request)?;
             ::core::result::Result::Ok($motion)
         }
 
         /// An equilibrium near a guess: all rates vanish.
         ///
-        /// The search stays near the guess. What is fixed stays as it is there; names are those of the state and of the
-        /// inputs. Newton's method with the exact linearisation.
+        /// The search stays near the guess, and on the holonomic constraints. What is fixed stays as it is in the guess;
+        /// names are those of the state and of the inputs. Newton's method with the exact linearisation.
         ///
         /// # Errors
         ///
