@@ -29,8 +29,7 @@ fn held() -> held::Prepared {
 #[test]
 fn an_equilibrium_finds_currents_and_voltages() {
     let guess = held::State { phi: 0.4, ..Default::default() };
-    let (state, inputs) =
-        held().equilibrium(0.0, &guess, &Default::default(), &["phi", "push"]).unwrap();
+    let (state, inputs) = held().equilibrium(0.0, &guess, &Default::default(), &["phi", "push"]).unwrap();
     let current = 9.81 * 0.5 * 0.4_f64.sin() / K;
     assert!((state.current - current).abs() < 1e-12 && (inputs.voltage - R * current).abs() < 1e-12);
     // The cart is pulled against its spring.
