@@ -187,7 +187,7 @@ impl Evaluator<'_> {
             (Place::KineticEnergy | Place::ForceFunction, Role::State) => fault
                 .note("energies are those of the motion; states act on it through `forces`")
                 .help("write what the state does as `force along velocity;`"),
-            (_, Role::State) => fault.note("states are allowed in `states`, `forces` and `outputs` only"),
+            (_, Role::State) => fault.note("states are allowed in `forces`, `states`, `outputs`, `switches`, `resets`, and the limits and conditions of contacts"),
             _ => match place.rule() {
                 Some(rule) => fault.note(rule),
                 None => fault,
