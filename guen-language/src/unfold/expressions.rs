@@ -366,7 +366,8 @@ pub(super) fn section_nesting(item: &Item) -> Option<&[Node]> {
     (!nesting.is_empty()).then_some(nesting)
 }
 
-/// Calls a function with every name that an item declares or that stands in its expressions.
+/// Calls a function with every name that an item declares or that stands in its expressions, be it behind a point: an entry of an
+/// instance's array has its index there, `chain.q[1]`.
 pub(super) fn names(item: &Item, visit: &mut dyn FnMut(&Name)) {
     declared(item, visit);
     for e in expressions(item) {
@@ -383,7 +384,7 @@ pub(super) fn has_fold(item: &Item) -> bool {
 }
 
 fn names_in(e: &Expression, visit: &mut dyn FnMut(&Name)) {
-    if let ExpressionKind::Name(name) = &e.kind {
+    if let ExpressionKind::Name(name) | ExpressionKind::Field { name, .. } = &e.kind {
         visit(name);
     }
     e.children().into_iter().for_each(|child| names_in(child, visit));

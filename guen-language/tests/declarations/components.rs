@@ -303,3 +303,82 @@ fn scenes_in_one_mode_have_rates_of_entries() {
     assert!(!expanded.contains("compile_error"), "{}", &expanded[..400]);
     assert!(expanded.contains("q_rate : [R ; 2usize]"));
 }
+
+/// A chain, and a component that uses one and has no loop itself.
+const CHAINED: &str = "pub system Chained {
+    component Chain(a: vector, n: count) {
+        constants   { m > 0 }
+        inputs      { u[n] }
+        coordinates { q[n] }
+        let e[0] = a;
+        for i in 0..n { let e[i+1] = e[i] + vec(sin(q[i]), cos(q[i])); }
+        parameters  { for i in 0..n { w[i] = dot(q[i]); } }
+        particles   { for i in 0..n { m at e[i+1]; } }
+        bodies      { for i in 0..n { b[i] { mass: m, center: e[i], inertia: diag(1, 1, 1), orientation: rot_z(q[i]) } } }
+        states      { for i in 0..n { dot(s[i]) = q[i] - s[i]; } }
+        switches    { for i in 0..n { past[i]: q[i] - 1; } }
+        contacts    { for i in 0..n { end[i]: gap = e[i+1].y - 1/2; } }
+        forces      { for i in 0..n { u[i] along w[i]; } }
+        outputs     { for i in 0..n { turned[i] = q[i]; } }
+    }
+    component Wrap(a: vector) {
+        use Chain as c { a, n: 2 }
+        let tip = c.e[2];
+        outputs { first = c.turned[1]; }
+        forces  { -c.s[1] along c.w[1]; }
+    }
+    constants   { M > 0 }
+    coordinates { x }
+    particles   { M at vec(x, 0); }
+    use Wrap as w { a: vec(x, 0) }
+    use Chain as c { a: vec(x, 1), n: 2 }
+    ITEMS
+}";
+
+#[test]
+fn entries_of_an_instance_are_read_where_nothing_else_is_counted() {
+    let uses = [
+        "outputs { y = c.e[2]; }",
+        "outputs { y = c.q[0]; }",
+        "let ee = c.e[2]; outputs { y = ee.x; }",
+        "outputs { y = w.c.e[1].x + w.tip.y; }",
+        "outputs { y = c.b[1].center; }",
+        "outputs { load = reaction(c.end[0]); clearance = gap(c.end[1]); }",
+        "forces { -dot(c.q[1]) along c.w[1]; }",
+        "forces { vec(1, 0) along dot(c.e[2]); }",
+        "forces { c.past[0] along dot(x); }",
+        "use Chain as d { a: c.e[2], n: 1 }",
+        "scene S { track c.q[0], w.c.q[1]; provide c.turned[1]; }",
+        "resets { r: c.e[1].y + x rises, x = 0; }",
+    ];
+    for items in uses {
+        let (declaration, report) = parse::parse(CHAINED.replace("ITEMS", items).parse().unwrap());
+        assert!(report.is_empty(), "{items}\n{report}");
+        let declaration = declaration.unwrap();
+        let (model, report) = collect(|faults| model::resolve(&declaration, faults));
+        assert!(model.is_some() && report.is_empty(), "{items}\n{report}");
+    }
+    let items = "forces { -dot(c.q[1]) along dot(c.e[2]).x; }";
+    let plain = rates(&CHAINED.replace("ITEMS", items), str::to_owned);
+    let counted = rates(&CHAINED.replace("ITEMS", &format!("let _unused[0] = 1; {items}")), str::to_owned);
+    assert_eq!(plain, counted);
+}
+
+#[test]
+fn an_index_behind_a_point_is_not_passed_over() {
+    let with_items = |items: &str| faults(&CHAINED.replace("ITEMS", items));
+    let wrong = with_items("outputs { y = c.e[3]; }");
+    assert!(wrong.contains("`c` has no entry `c.e[3]`"), "{wrong}");
+    let wrong = with_items("outputs { y = w.tip[0]; }");
+    assert!(wrong.contains("`w` has no entry `w.tip[0]`"), "{wrong}");
+    let wrong = with_items("let p = vec(x, 0); outputs { y = p.x[0]; }");
+    assert!(wrong.contains("`x` has no entries"), "{wrong}");
+    let alone = "pub system Alone {
+        coordinates { x }
+        let p = vec(x, 0);
+        particles { 1 at p; }
+        outputs { y = p.x[0]; }
+    }";
+    let wrong = faults(alone);
+    assert!(wrong.contains("a vector has the components `x`, `y` and `z`, and no `x[0]`"), "{wrong}");
+}
