@@ -89,8 +89,11 @@ impl Unfolder<'_> {
     }
 
     fn field(&mut self, e: &Expression, base: Box<Expression>, name: &Name) -> Box<Expression> {
-        let name = self.member(name);
-        with_kind(e, ExpressionKind::Field { base, name })
+        let kind = match self.member(name) {
+            Some(name) => ExpressionKind::Field { base, name },
+            None => ExpressionKind::Missing,
+        };
+        with_kind(e, kind)
     }
 
     fn name(&mut self, e: &Expression, name: &Name) -> Box<Expression> {
@@ -98,22 +101,20 @@ impl Unfolder<'_> {
         with_kind(e, kind)
     }
 
-    /// The name of a member of an instance, with its index computed; whether it has such an entry is asked later.
-    pub(super) fn member(&mut self, name: &Name) -> Name {
-        let Index::Written(written) = &name.index else { return name.clone() };
-        let values = written.indices.iter().map(|e| Some((self.number(e)?, e.span)));
-        let Some(values) = values.collect::<Option<Vec<(i64, Span)>>>() else { return name.clone() };
+    /// The name of a member of an instance, with its index computed; none after a fault. Whether it has such an entry is asked later.
+    pub(super) fn member(&mut self, name: &Name) -> Option<Name> {
+        let Index::Written(written) = &name.index else { return Some(name.clone()) };
+        let values: Vec<Option<i64>> = written.indices.iter().map(|e| self.number(e)).collect();
         let mut steps = Vec::new();
-        for (value, span) in values {
-            match usize::try_from(value) {
-                Ok(at) => steps.push(Step::Index { at, of: 0 }),
-                Err(_) => {
-                    self.faults.report(Fault::new(span, format!("`{name}[{value}]` is out of range")));
-                    return name.clone();
-                }
-            }
+        for (value, e) in values.into_iter().zip(&written.indices) {
+            let value = value?;
+            let Ok(at) = usize::try_from(value) else {
+                self.faults.report(Fault::new(e.span, format!("`{name}[{value}]` is out of range")));
+                return None;
+            };
+            steps.push(Step::Index { at, of: 0 });
         }
-        Name::at(Path { root: name.ident.clone(), steps })
+        Some(Name::at(Path { root: name.ident.clone(), steps }))
     }
 
     /// A sum or product over a range, written out.
@@ -172,7 +173,8 @@ impl Unfolder<'_> {
             return None;
         }
         if let Index::Member(member) = &name.index {
-            let texts: Vec<String> = member.steps.iter().map(|step| self.member(step).text).collect();
+            let steps: Vec<Option<Name>> = member.steps.iter().map(|step| self.member(step)).collect();
+            let texts = steps.into_iter().map(|step| Some(step?.text)).collect::<Option<Vec<String>>>()?;
             return Some(Name { text: texts.join("."), ident: name.ident.clone(), index: Index::None });
         }
         let Index::Written(written) = &name.index else {

@@ -382,3 +382,19 @@ fn an_index_behind_a_point_is_not_passed_over() {
     let wrong = faults(alone);
     assert!(wrong.contains("a vector has the components `x`, `y` and `z`, and no `x[0]`"), "{wrong}");
 }
+
+#[test]
+fn a_fault_in_an_index_behind_a_point_is_told_once() {
+    let message =
+        |index: &str| faults(&CHAINED.replace("ITEMS", &format!("outputs {{ y = c.q[{index}]; }}")));
+    for (index, expected) in [
+        ("k", "`k` is no count and no loop variable"),
+        ("-1", "`q[-1]` is out of range"),
+        ("1/0", "this index divides by zero"),
+    ] {
+        let found = message(index);
+        assert!(found.contains(expected) && found.matches("line ").count() == 1, "{found}");
+    }
+    let found = faults(&CHAINED.replace("ITEMS", "scene S { track c.q[k]; }"));
+    assert_eq!(found.matches("line ").count(), 1, "{found}");
+}
