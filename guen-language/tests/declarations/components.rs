@@ -2,6 +2,7 @@
 
 use guen_language::derive::{derive, function};
 use guen_language::diagnostics::collect;
+use guen_language::syntax::Item;
 use guen_language::{model, parse};
 
 use crate::common::{derived, evaluated};
@@ -397,4 +398,44 @@ fn a_fault_in_an_index_behind_a_point_is_told_once() {
     }
     let found = faults(&CHAINED.replace("ITEMS", "scene S { track c.q[k]; }"));
     assert_eq!(found.matches("line ").count(), 1, "{found}");
+}
+
+#[test]
+fn an_array_of_instances_in_an_instance_is_tracked_by_its_name() {
+    let text = "pub system Rows {
+        component Bob(a: vector) {
+            constants   { m > 0 }
+            coordinates { q[2] }
+            particles   { m at a + vec(q[0], q[1]); }
+            states      { dot(lag) = q[0] - lag; }
+        }
+        component Row(a: vector) {
+            coordinates { z }
+            particles   { 1 at a + vec(z, 0); }
+            for i in 0..2 { use Bob as s[i] { a } }
+        }
+        component Block(a: vector) { for i in 0..2 { use Row as row[i] { a } } }
+        coordinates { x }
+        particles   { 1 at vec(x, 0); }
+        use Block as o { a: vec(0, 0) }
+        scene S { track NAMES; }
+    }";
+    let tracked = |names: &str| {
+        let (declaration, report) = parse::parse(text.replace("NAMES", names).parse().unwrap());
+        assert!(report.is_empty(), "{report}");
+        let declaration = declaration.unwrap();
+        let (model, report) = collect(|faults| model::resolve(&declaration, faults));
+        assert!(model.is_some() && report.is_empty(), "{names}\n{report}");
+        let scene = declaration.items.iter().find_map(|item| match item {
+            Item::Scene(scene) => Some(scene.tracks.iter().map(|name| name.text.clone()).collect()),
+            _ => None,
+        });
+        let mut names: Vec<String> = scene.unwrap();
+        names.sort();
+        names
+    };
+    assert_eq!(tracked("o.row[1].s"), tracked("o.row[1].s[0], o.row[1].s[1]"));
+    assert_eq!(tracked("o.row"), tracked("o.row[0], o.row[1]"));
+    assert_eq!(tracked("o.row"), tracked("o"));
+    assert_eq!(tracked("o.row[0].s").len(), 6);
 }

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use super::Unfolded;
 use super::prefix::path_of;
 use crate::diagnostics::{Fault, Faults};
-use crate::names::{is_reserved, nearest, quoted};
+use crate::names::{array_of, is_reserved, nearest, quoted};
 use crate::syntax::{
     Component, Expression, ExpressionKind, Index, Item, ModeStatement, Name, Path, Section, Step, Use,
 };
@@ -351,13 +351,18 @@ impl Scope {
         found
     }
 
-    /// The names that a name after `track` stands for: of an instance its coordinates and parameters.
+    /// The names that a name after `track` stands for: of an instance, and of an array of instances, its coordinates, parameters and
+    /// states.
     fn tracked(&self, name: &Name, moving: &[Name]) -> Vec<Name> {
-        if !self.instances.contains_key(&name.text) {
+        let is_meant = |instance: &str| instance == name.text || array_of(instance) == name.text;
+        let meant: Vec<&String> = self.instances.keys().filter(|instance| is_meant(instance)).collect();
+        if meant.is_empty() {
             return self.all(name);
         }
-        let prefix = format!("{name}.");
-        let inside = moving.iter().filter(|known| known.text.starts_with(&prefix));
+        let is_inside = |known: &Name, instance: &str| {
+            known.text.strip_prefix(instance).is_some_and(|rest| rest.starts_with('.'))
+        };
+        let inside = moving.iter().filter(|known| meant.iter().any(|instance| is_inside(known, instance)));
         let inside: Vec<Name> = inside.map(|known| placed(known, name)).collect();
         if inside.is_empty() { vec![name.clone()] } else { inside }
     }
