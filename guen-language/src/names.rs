@@ -157,6 +157,9 @@ const GENERATED_ITEMS: &[&str] = &[
     "missing",
 ];
 
+/// The struct of the states of all contacts.
+pub(crate) const MODES: &str = "Mode";
+
 /// The struct and the module of a carried form; nothing else in the module of a level may have their names.
 pub(crate) const CARRIED_ITEMS: [&str; 2] = ["Carried", "carried"];
 

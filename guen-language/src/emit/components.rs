@@ -147,7 +147,7 @@ fn path_of<'a>(tree: &Tree, instances: &'a [Instance]) -> Option<&'a TokenStream
     let part = tree.instance()?;
     let instance = instances.iter().find(|instance| {
         let is_top = instance.path.steps.iter().all(|step| matches!(step, crate::syntax::Step::Index { .. }));
-        is_top && part.module.first() == Some(&instance.path.root)
+        is_top && part.module.first() == Some(instance.path.module())
     });
     instance.map(|instance| &instance.component.tokens)
 }

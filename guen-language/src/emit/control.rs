@@ -206,7 +206,7 @@ fn inner_module(name: &Name) -> Option<Vec<Ident>> {
         Step::Field(field) => Some(field.clone()),
         Step::Index { .. } => None,
     });
-    let mut module: Vec<Ident> = std::iter::once(path.root.clone()).chain(fields).collect();
+    let mut module: Vec<Ident> = std::iter::once(path.module().clone()).chain(fields).collect();
     module.pop();
     (!module.is_empty()).then_some(module)
 }

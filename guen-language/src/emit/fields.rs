@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use crate::syntax::{Name, Step};
+use crate::syntax::{Name, Path, Step};
 pub(super) use long_arrays::{Entry, LONG_ARRAY, by_number};
 
 /// The fields of a struct whose values are a flat list.
@@ -65,7 +65,7 @@ impl Fields {
 
     /// The fields for values of these names and types: entries of several types have a field each.
     pub(super) fn of_types<T: PartialEq>(names: &[&Name], types: &[T]) -> Self {
-        let mut order: Vec<&Ident> = Vec::new();
+        let mut order: Vec<&Name> = Vec::new();
         let mut groups: BTreeMap<String, Vec<Waiting<'_>>> = BTreeMap::new();
         let incomplete = incomplete(names, types);
         for (place, name) in names.iter().enumerate() {
@@ -74,15 +74,17 @@ impl Fields {
             }
             let group = groups.entry(name.root().to_string()).or_default();
             if group.is_empty() {
-                order.push(name.root());
+                order.push(name);
             }
             group.push((name.path().map_or(&[][..], |path| &path.steps), place));
         }
         let mut fields = Vec::new();
         let mut accesses = vec![TokenStream::new(); names.len()];
-        for root in order {
+        for name in order {
+            let root = name.root();
             let group = &groups[&root.to_string()];
-            match tree(group, std::slice::from_ref(root)) {
+            let module = name.path().map_or(root, Path::module);
+            match tree(group, std::slice::from_ref(module)) {
                 Some(tree) => {
                     tree.reach(&quote!(#root), &mut accesses);
                     fields.push((root.clone(), tree));

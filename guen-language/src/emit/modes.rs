@@ -9,11 +9,11 @@ use super::parts::{self, Modules};
 use super::text;
 use crate::derive::{ContactFacts, Subject, function};
 use crate::model::{ContactEntry, ContactState, Contacts};
-use crate::names::type_name;
+use crate::names::{MODES, type_name};
 use crate::report::row_name;
 use crate::syntax::Instance;
 
-const RECORD: &str = "Mode";
+const RECORD: &str = MODES;
 
 /// `Mode` and the types of states that no instance has, those of the system in a scene, and the list of all modes.
 pub(super) fn items(

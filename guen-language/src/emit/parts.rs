@@ -134,16 +134,20 @@ pub(super) fn instances(fields: &[(Ident, Tree)]) -> impl Iterator<Item = (usize
 pub(super) fn add_constants(modules: &mut Modules, structure: &Fields) {
     let top: Vec<(Ident, Tree)> =
         structure.trees().map(|(ident, tree)| (ident.clone(), tree.clone())).collect();
-    let place = |fields: &[(Ident, Tree)], name: &Ident| {
-        instances(fields).find(|(_, known)| *known == name).map_or(0, |(place, _)| place)
+    let place = |fields: &[(Ident, Tree)], module: &[Ident]| {
+        let has_module = |(_, tree): &&(Ident, Tree)| tree.instance().is_some_and(|own| own.module == module);
+        let field = fields.iter().find(has_module).map(|(ident, _)| ident);
+        instances(fields).find(|(_, known)| Some(*known) == field).map_or(0, |(place, _)| place)
     };
     let parts = structure.parts();
     for part in &parts {
-        let Some((name, outer)) = part.module.split_last() else { continue };
+        let Some((_, outer)) = part.module.split_last() else { continue };
         let owner = parts.iter().find(|other| other.module == outer);
         let (place, of) = match owner {
-            None => (place(&top, name), quote!(super::__GuenInstances)),
-            Some(owner) => (place(&owner.fields, name), quote!(super::Constants<::core::primitive::f64>)),
+            None => (place(&top, &part.module), quote!(super::__GuenInstances)),
+            Some(owner) => {
+                (place(&owner.fields, &part.module), quote!(super::Constants<::core::primitive::f64>))
+            }
         };
         let (kinds, functions) = (&part.kinds, functions_of(&part.kinds));
         let item = quote! {
@@ -188,7 +192,7 @@ pub(super) fn docs_of_instance(instances: &[Instance], part: &Part) -> TokenStre
             crate::syntax::Step::Field(field) => Some(field),
             crate::syntax::Step::Index { .. } => None,
         });
-        std::iter::once(&instance.path.root).chain(fields).eq(part.module.iter())
+        std::iter::once(instance.path.module()).chain(fields).eq(part.module.iter())
     };
     let Some(instance) = instances.iter().find(|instance| text(instance)) else { return TokenStream::new() };
     let values = &instance.docs.values;

@@ -59,10 +59,8 @@ pub fn sound(declaration: &Declaration) -> Declaration {
         items.extend(contacts::items(declaration, &kinds, &mut names, moving, &forms.coordinates));
     }
     items.extend(scenes::items(declaration, &entries, &forms));
-    components::free_names(
-        Declaration { items, origins: Vec::new(), is_outline: true, ..declaration.clone() },
-        declaration,
-    )
+    let outline = Declaration { items, origins: Vec::new(), is_outline: true, ..declaration.clone() };
+    components::free_modules(components::free_names(outline, declaration), declaration)
 }
 
 /// A section without documentation; one without entries is as if it were not there.

@@ -20,8 +20,7 @@ pub(super) fn items(declaration: &Declaration, entries: &Entries, forms: &Forms)
             || crate::names::is_generated_item(&module(scene).to_string())
             || crate::names::is_generated_item(&scene.name.text)
             || crate::names::CARRIED_ITEMS.contains(&scene.name.text.as_str());
-        let is_of_instance = declaration.instances.iter().any(|instance| module(scene) == instance.path.root);
-        if !is_of_system && !is_of_instance && scenes.iter().all(|other| module(other) != module(scene)) {
+        if !is_of_system && scenes.iter().all(|other| module(other) != module(scene)) {
             scenes.push(sound(scene, declaration, entries, forms));
         }
     }

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use proc_macro2::{Span, TokenStream};
 
 use super::{Declaration, Docs, Expression, Item, Name, Node, Path, Visibility};
-use crate::names::{CARRIED_ITEMS, is_generated_item};
+use crate::names::{CARRIED_ITEMS, MODES, is_generated_item, module_name};
 
 /// `component Name(a: scalar, ..) { sections }`.
 #[derive(Debug, Clone)]
@@ -179,14 +179,20 @@ pub struct Imported {
 }
 
 impl Declaration {
-    /// Whether the generated module has an item of its own with the name of a component in the braces.
-    pub fn takes_name_of(&self, component: &Name) -> bool {
-        let text = component.text.as_str();
+    /// Whether the generated module has an item of its own with the name of a component in the braces or of an instance.
+    pub fn takes_name(&self, text: &str) -> bool {
         let is_scene = |item: &Item| matches!(item, Item::Scene(scene) if scene.name.text == text);
         is_generated_item(text)
             || CARRIED_ITEMS.contains(&text)
+            || text == MODES
             || self.name.text == text
             || self.items.iter().any(is_scene)
+    }
+
+    /// Whether the generated module has an item of its own with the name of the module of an instance.
+    pub fn takes_module(&self, text: &str) -> bool {
+        let is_of_scene = |item: &Item| matches!(item, Item::Scene(scene) if module_name(&scene.name.ident, "scene") == text);
+        self.takes_name(text) || self.items.iter().any(is_of_scene)
     }
 }
 

@@ -2,8 +2,8 @@
 
 use proc_macro2::Span;
 
-use super::{Declaration, Docs, Equation, Expression, Item, Name, Step};
-use crate::names::{is_generated_item, is_rust_keyword, type_name};
+use super::{Declaration, Docs, Equation, Expression, Item, Name, Path};
+use crate::names::{MODES, is_generated_item, is_rust_keyword, type_name};
 
 /// `name: word = e, word = e, ..;` of `contacts`.
 #[derive(Debug, Clone)]
@@ -113,13 +113,8 @@ impl Contact {
 
 /// The type of the states of a contact, in the module of its instance: of `left.front_foot[0]` it is `FrontFoot` in `left`.
 pub fn type_of_states(contact: &Name) -> StatesType {
-    let mut names = vec![contact.root().to_string()];
-    names.extend(contact.path().into_iter().flat_map(|path| &path.steps).filter_map(|step| match step {
-        Step::Field(field) => Some(field.to_string()),
-        Step::Index { .. } => None,
-    }));
-    let plain = |name: &String| name.trim_start_matches("r#").to_owned();
-    let mut path: Vec<String> = names.iter().map(plain).collect();
+    let plain = || vec![contact.root().to_string().trim_start_matches("r#").to_owned()];
+    let mut path = contact.path().map_or_else(plain, Path::names);
     let last = path.pop().unwrap_or_default();
     StatesType { module: path, name: type_name(&last), contact: last }
 }
@@ -283,16 +278,19 @@ impl Declaration {
     /// Tells why the states of a contact cannot be this type, if they cannot.
     pub fn takes_type(&self, states: &StatesType) -> Option<String> {
         let name = states.name.as_str();
+        let mut path = states.module.clone();
+        path.push(states.name.clone());
+        let is_instance = self.instances.iter().any(|instance| instance.path.names() == path);
         if !states.module.is_empty() {
             let of = states.module.join(".");
-            let is_taken = name == "Mode" || is_generated_item(name) || is_rust_keyword(name);
+            let is_taken = name == MODES || is_generated_item(name) || is_rust_keyword(name) || is_instance;
             return is_taken.then(|| format!("the module of `{of}` has an item of this name"));
         }
         let mut scenes = self.items.iter().filter_map(|item| match item {
             Item::Scene(scene) => Some(&scene.name.text),
             _ => None,
         });
-        if name == "Mode" || is_generated_item(name) || is_rust_keyword(name) {
+        if name == MODES || is_generated_item(name) || is_rust_keyword(name) {
             Some(format!("the module of `{}` has an item of this name", self.name))
         } else if name == self.name.text {
             Some("this is the name of the system".to_owned())
@@ -300,6 +298,8 @@ impl Declaration {
             Some("this is the name of a scene".to_owned())
         } else if self.components.iter().any(|(component, _)| component.name.text == name) {
             Some("this is the name of a component".to_owned())
+        } else if is_instance {
+            Some("this is the name of an instance".to_owned())
         } else {
             None
         }

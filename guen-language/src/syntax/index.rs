@@ -123,6 +123,9 @@ pub struct WrittenIndex {
 pub struct Path {
     /// The field.
     pub root: Ident,
+    /// The name of the module of the instance that the field is, where it is not that of the field: in what stands in for a faulty
+    /// declaration, an instance may have the name of another item.
+    pub module: Option<Ident>,
     /// The steps from there.
     pub steps: Vec<Step>,
 }
@@ -177,6 +180,21 @@ pub struct Choice {
 }
 
 impl Path {
+    /// The names on the way, without `r#` and indices: of `leg[1].foot` they are `leg` and `foot`.
+    pub fn names(&self) -> Vec<String> {
+        let fields = self.steps.iter().filter_map(|step| match step {
+            Step::Field(field) => Some(field),
+            Step::Index { .. } => None,
+        });
+        let plain = |ident: &Ident| ident.to_string().trim_start_matches("r#").to_owned();
+        std::iter::once(&self.root).chain(fields).map(plain).collect()
+    }
+
+    /// The module of the instance that the field is.
+    pub fn module(&self) -> &Ident {
+        self.module.as_ref().unwrap_or(&self.root)
+    }
+
     /// The path as text: `q[3]`, `k[1][2]`, `rear[2].angle`.
     pub fn text(&self) -> String {
         self.written("[", "]", ".")

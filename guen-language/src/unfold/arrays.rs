@@ -48,7 +48,7 @@ impl Array {
     /// The path to an entry.
     pub(super) fn path(&self, root: proc_macro2::Ident, indices: &[usize]) -> Path {
         let steps = indices.iter().zip(&self.sizes).map(|(at, of)| Step::Index { at: *at, of: *of });
-        Path { root, steps: steps.collect() }
+        Path { root, module: None, steps: steps.collect() }
     }
 }
 

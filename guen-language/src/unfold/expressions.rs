@@ -114,7 +114,7 @@ impl Unfolder<'_> {
             };
             steps.push(Step::Index { at, of: 0 });
         }
-        Some(Name::at(Path { root: name.ident.clone(), steps }))
+        Some(Name::at(Path { root: name.ident.clone(), module: None, steps }))
     }
 
     /// A sum or product over a range, written out.

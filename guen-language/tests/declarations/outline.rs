@@ -10,6 +10,8 @@ use guen_language::syntax::{Declaration, Fix, Item};
 use guen_language::{expand_outline, parse};
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 
+use crate::common::fault_messages;
+
 /// The signatures of items without documentation, attributes and bodies.
 fn signatures(items: TokenStream, scope: &Scope, found: &mut BTreeSet<String>) {
     let mut trees = items.into_iter().peekable();
@@ -265,4 +267,51 @@ fn records(items: TokenStream) -> Vec<TokenStream> {
 #[test]
 fn a_name_that_is_taken_has_no_outline() {
     assert_eq!(of("system State { coordinates { x } parameters { u = dot(x); } kinetic_energy = u^2; }"), "");
+}
+
+/// A module of an instance beside an item of that name would be an error of the compiler beside ours.
+#[test]
+fn an_instance_whose_name_is_taken_has_a_module_of_another_name() {
+    for (instance, further, fault) in [
+        ("program", "", "the module of the system has an item `program` of its own"),
+        ("carried", "provide carried;", "the module of the system has an item `carried` of its own"),
+        ("Mode", "", "the module of the system has an item `Mode` of its own"),
+        ("Cart", "", "the module of the system has an item `Cart` of its own"),
+        ("Turned", "scene Turned { track x; }", "scene `Turned` has a type of that name"),
+        ("turned", "scene Turned { track x; }", "scene `Turned` has a module of that name"),
+    ] {
+        let text = format!(
+            "system Cart {{
+                component Wheel(hub: vector) {{
+                    constants {{ m > 0 }} coordinates {{ z }} particles {{ m at hub + vec(0, z); }} contacts {{ sole: gap = z; }}
+                }}
+                coordinates {{ x }}
+                particles {{ 1 at vec(x, 0); }}
+                use Wheel as {instance} {{ hub: vec(x, 0) }}
+                {further}
+            }}"
+        );
+        let (declaration, report) = parse::parse(text.parse().unwrap());
+        let messages = report.to_string();
+        let expected = format!("an instance cannot be called `{instance}`\nnote: {fault}");
+        assert!(messages.contains(&expected) && report.faults().len() == 1, "{messages}");
+        let outline: String = expand_outline(&declaration.unwrap()).to_string().split_whitespace().collect();
+        for module in ["State<R>", "Constants<R>", "Mode"] {
+            let field = format!("pub{instance}:other_{instance}::{module},");
+            assert!(outline.contains(&field), "{field} is not in {outline}");
+        }
+        assert!(outline.contains(&format!("pubmodother_{instance}{{")), "{outline}");
+        let scenes = further.matches("scene").count();
+        assert_eq!(outline.matches("pubuseturned::Turned;").count(), scenes, "{outline}");
+        assert_eq!(outline.matches("pubmodturned{").count(), scenes, "{outline}");
+    }
+    let text = "system Cart {
+        component Wheel(hub: vector) { coordinates { z } particles { 1 at hub + vec(0, z); } }
+        coordinates { x }
+        particles { 1 at vec(x, 0); }
+        contacts { foot: gap = x; }
+        use Wheel as Foot { hub: vec(x, 0) }
+    }";
+    let found = fault_messages(text);
+    assert_eq!(found, ["a contact cannot be called `foot` here"]);
 }

@@ -1,8 +1,8 @@
 //! Names of instances and components that the generated module needs for itself.
 
 use crate::diagnostics::{Fault, Faults};
-use crate::names::{CARRIED_ITEMS, is_generated_item, module_name};
-use crate::syntax::{Declaration, Item};
+use crate::names::module_name;
+use crate::syntax::{Declaration, Item, Name};
 
 /// Reports instances and components whose modules and structs would have the names of others.
 pub(super) fn check(declaration: &Declaration, faults: &mut Faults) {
@@ -19,15 +19,15 @@ pub(super) fn check(declaration: &Declaration, faults: &mut Faults) {
             Item::Use(instance) => {
                 let name = &instance.name;
                 let text = name.root().to_string();
-                let scene = scenes.iter().find(|scene| module_name(&scene.ident, "scene") == text);
+                let has_module = |scene: &Name| module_name(&scene.ident, "scene") == text;
+                let scene = scenes.iter().find(|scene| scene.text == text || has_module(scene));
                 let fault = || Fault::new(name.span(), format!("an instance cannot be called `{text}`"));
                 if let Some(scene) = scene {
-                    let fault = fault().note_place(
-                        &format!("scene `{scene}` has a module of that name, declared"),
-                        scene.span(),
-                    );
+                    let item = if has_module(scene) { "module" } else { "type" };
+                    let note = format!("scene `{scene}` has a {item} of that name, declared");
+                    let fault = fault().note_place(&note, scene.span());
                     faults.report(fault.help("choose another name for one of them"));
-                } else if is_generated_item(&text) || CARRIED_ITEMS.contains(&text.as_str()) {
+                } else if declaration.takes_name(&text) {
                     let fault =
                         fault().note(format!("the module of the system has an item `{text}` of its own"));
                     faults.report(fault.help("choose another name"));
@@ -35,7 +35,7 @@ pub(super) fn check(declaration: &Declaration, faults: &mut Faults) {
             }
             Item::Component(component) => {
                 let name = &component.name;
-                if declaration.takes_name_of(name) {
+                if declaration.takes_name(&name.text) {
                     let text =
                         format!("a component in the braces of a system cannot be called `{name}` here");
                     let fault = Fault::new(name.span(), text);

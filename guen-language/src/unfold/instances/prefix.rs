@@ -5,14 +5,18 @@ use crate::unfold::component_names::OwnNames;
 
 /// The path of the field that an instance is.
 pub(super) fn path_of(instance: &Name) -> Path {
-    instance.path().cloned().unwrap_or_else(|| Path { root: instance.ident.clone(), steps: Vec::new() })
+    instance.path().cloned().unwrap_or_else(|| Path {
+        root: instance.ident.clone(),
+        module: None,
+        steps: Vec::new(),
+    })
 }
 
 /// A path inside of an instance.
 pub(super) fn behind(instance: &Path, own: &Path) -> Path {
     let steps = instance.steps.iter().cloned();
     let steps = steps.chain([Step::Field(own.root.clone())]).chain(own.steps.iter().cloned());
-    Path { root: instance.root.clone(), steps: steps.collect() }
+    Path { root: instance.root.clone(), module: None, steps: steps.collect() }
 }
 
 /// A name of the component as that of an instance; its place stays in the component.
