@@ -123,3 +123,38 @@ fn what_is_nested_deeper_is_an_error_however_deep() {
     let error = first_error(system("", &force)).expect("an error");
     assert!(error.contains("more than 64 branches"), "{error}");
 }
+
+/// Entries that read the one before them several times: each is looked at once, and not on every way down to it, of which there are 3^39.
+#[test]
+fn entries_that_stand_in_each_other_are_looked_at_once() {
+    let declaration = |rest: &str| {
+        format!(
+            "pub system S {{
+                count n = 40;
+                constants {{ c[n] }}
+                coordinates {{ x, y, z }}
+                let u[0] = x;
+                for i in 1..n {{ let u[i] = u[i-1]*sin(y + c[i]) + u[i-1]*cos(z*c[i]) + u[i-1]; }}
+                let v[0] = dot(x);
+                for i in 1..n {{ let v[i] = v[i-1]*sin(y + c[i]) + v[i-1]*cos(z*c[i]) + v[i-1]; }}
+                let T = (dot(x)^2 + dot(y)^2 + dot(z)^2)/2;
+                {rest}
+            }}"
+        )
+    };
+    for rest in [
+        "kinetic_energy = T + v[n-1]^2;",
+        "kinetic_energy = T + z*v[n-1];",
+        "kinetic_energy = T; potential_energy = u[n-1];",
+        "kinetic_energy = T; forces { 3 along v[n-1]; }",
+        "kinetic_energy = T; constraints { w: v[n-1] + dot(y) = 0; }",
+        "kinetic_energy = T; parameters { w = v[n-1]; }",
+        "kinetic_energy = T; states { dot(s) = u[n-1]; } outputs { o = v[n-1]; p = dot(v[n-1]); }",
+    ] {
+        let (sender, receiver) = std::sync::mpsc::channel();
+        let text = declaration(rest);
+        Builder::new().stack_size(8 * STACK).spawn(move || sender.send(first_error(text)).unwrap()).unwrap();
+        let error = receiver.recv_timeout(std::time::Duration::from_secs(120)).expect(rest);
+        assert!(error.is_none(), "{rest} {error:?}");
+    }
+}

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::velocity_forms::{VELOCITIES, VelocityPartials};
-use crate::algebra::{ExprId, Node, Rational};
+use crate::algebra::{ExprId, FastMap, Graph, Node, Rational};
 use crate::workbench::Workbench;
 use crate::zero::Verdict;
 
@@ -31,6 +31,7 @@ pub fn decompose(
     energy: ExprId,
 ) -> Result<Vec<KineticTerm>, NotQuadratic> {
     let mut found = Vec::new();
+    let mut known = Degrees::default();
     let one = bench.graph.one();
     let mut stack = vec![(energy, one)];
     while let Some((e, weight)) = stack.pop() {
@@ -54,12 +55,14 @@ pub fn decompose(
                     factors.iter().copied().partition(|(base, _)| bench.graph.roles(*base).meets(VELOCITIES));
                 let fixed = bench.graph.product(&fixed);
                 let outer = bench.graph.mul(weight, fixed);
-                let degrees: Vec<_> = moving.iter().map(|(base, _)| degree(bench, *base)).collect();
+                let degrees: Vec<_> = moving.iter().map(|(base, _)| known.of(&bench.graph, *base)).collect();
                 match (&moving[..], &degrees[..]) {
                     ([(u, 2)], [Some(1)]) => found.push(KineticTerm { weight: outer, forms: vec![*u, *u] }),
                     ([(u, 1), (v, 1)], [Some(1), Some(1)]) => {
                         found.push(KineticTerm { weight: outer, forms: vec![*u, *v] });
                     }
+                    // Written out, a velocity that others stand in would be met once on every way down to it.
+                    ([(u, 1)], [Some(1)]) => found.push(KineticTerm { weight: outer, forms: vec![*u] }),
                     ([(inner, 1)], _) => stack.push((*inner, outer)),
                     _ => polarise(bench, partials, symbols, e, weight, &mut found)?,
                 }
@@ -86,22 +89,32 @@ pub fn decompose(
     Ok(merged)
 }
 
-/// The degree in the velocities as it is written, `None` if it is not seen to be a polynomial.
-fn degree(bench: &Workbench, e: ExprId) -> Option<u32> {
-    let graph = &bench.graph;
-    if !graph.roles(e).meets(VELOCITIES) {
-        return Some(0);
-    }
-    match graph.node(e) {
-        Node::Symbol(_) => Some(1),
-        Node::Sum { terms, .. } => {
-            terms.iter().map(|(term, _)| degree(bench, *term)).try_fold(0, |most, d| Some(most.max(d?)))
+/// Degrees in the velocities, each found once: velocities stand in each other.
+#[derive(Default)]
+struct Degrees(FastMap<ExprId, Option<u32>>);
+
+impl Degrees {
+    /// The degree of an expression as it is written, `None` if it is not seen to be a polynomial.
+    fn of(&mut self, graph: &Graph, e: ExprId) -> Option<u32> {
+        if !graph.roles(e).meets(VELOCITIES) {
+            return Some(0);
         }
-        Node::Product(factors) => factors.iter().try_fold(0, |sum, (base, e)| {
-            let d = degree(bench, *base)?;
-            if d == 0 { Some(sum) } else { u32::try_from(*e).ok().map(|e| sum + d * e) }
-        }),
-        _ => None,
+        if let Some(known) = self.0.get(&e) {
+            return *known;
+        }
+        let found = match graph.node(e) {
+            Node::Symbol(_) => Some(1),
+            Node::Sum { terms, .. } => {
+                terms.iter().map(|(term, _)| self.of(graph, *term)).try_fold(0, |most, d| Some(most.max(d?)))
+            }
+            Node::Product(factors) => factors.iter().try_fold(0, |sum, (base, e)| {
+                let d = self.of(graph, *base)?;
+                if d == 0 { Some(sum) } else { u32::try_from(*e).ok().map(|e| sum + d * e) }
+            }),
+            _ => None,
+        };
+        self.0.insert(e, found);
+        found
     }
 }
 
