@@ -99,6 +99,47 @@ fn a_long_chain_in_relative_angles_costs_for_each_link_what_a_short_one_costs() 
     assert!(!long.has_mass && long.bytes < 3.0e5, "{}", long.bytes);
 }
 
+/// Chains that hang on a cart, whose links turn with inertias of their own, in relative angles and in absolute ones.
+#[test]
+fn chains_on_carts_and_with_inertias_are_taken_link_by_link() {
+    let chain = |n: usize, first: &str, angle: &str, rest: &str| {
+        size(&format!(
+            "pub system Chain {{
+                count n = {n};
+                constants {{ M > 0, m[n] > 0, J[n] > 0, l[n] > 0, k >= 0, g = 9.81 }}
+                coordinates {{ x, q[n] }}
+                let a[0] = q[0];
+                let p[0] = {first} + l[0]*vec(sin(a[0]), -cos(a[0]));
+                for i in 1..n {{ let a[i] = {angle}; let p[i] = p[i-1] + l[i]*vec(sin(a[i]), -cos(a[i])); }}
+                particles {{ M at vec(x, 0); for i in 0..n {{ m[i] at p[i]; }} }}
+                gravity = vec(0, -g);
+                {rest}
+            }}"
+        ))
+    };
+    let turning = "kinetic_energy = sum(i in 0..n: J[i]*dot(a[i])^2/2);";
+    let springs = "potential_energy = sum(i in 0..n: k*q[i]^2/2);";
+    for (first, angle, rest) in [
+        ("vec(x, 0)", "q[i]", springs),
+        ("vec(x, 0)", "a[i-1] + q[i]", springs),
+        ("vec(0, 0)", "q[i]", turning),
+        ("vec(0, 0)", "a[i-1] + q[i]", turning),
+    ] {
+        let [short, stated, long] = [20, 40, 70].map(|n| chain(n, first, angle, rest));
+        let each = |size: &Size, n: f64| size.operations / n;
+        assert!(stated.has_mass && stated.bytes < 1.0e6, "{angle} {rest} {}", stated.bytes);
+        assert!(!long.has_mass && long.bytes < 2.5e5, "{angle} {rest} {}", long.bytes);
+        // In relative angles the first links are irregular, and there are few others yet.
+        let most = if angle == "q[i]" { 1.3 } else { 1.7 };
+        assert!(
+            each(&long, 70.0) < most * each(&short, 20.0),
+            "{angle} {rest} {} {}",
+            short.operations,
+            long.operations
+        );
+    }
+}
+
 /// What a mass matrix or base angles give with less keeps its cost.
 #[test]
 fn coupled_neighbours_and_relative_angles_cost_what_they_did() {
@@ -155,13 +196,13 @@ fn momenta_over_the_links_are_slopes_of_the_energy() {
         potential_energy = k*inner(p[n-1], p[n-1])/2;
     }";
     let cases = [
-        (true, chain("", "vec(0, 0)", "", "i-1")),
-        (false, chain(", a, W", "vec(a*sin(W*t), 0)", "", "i-1")),
-        (true, chain("", "vec(0, 0)", mixed, "i-1")),
-        (true, chain("", "vec(0, 0)", "", "(i-1)/2")),
-        (false, space.to_owned()),
+        chain("", "vec(0, 0)", "", "i-1"),
+        chain(", a, W", "vec(a*sin(W*t), 0)", "", "i-1"),
+        chain("", "vec(0, 0)", mixed, "i-1"),
+        chain("", "vec(0, 0)", "", "(i-1)/2"),
+        space.to_owned(),
     ];
-    for (over_the_links, text) in cases {
+    for text in cases {
         let (parsed, _) = parse::parse(text.parse().unwrap());
         let parsed = parsed.unwrap();
         let (derived, report) = collect(|faults| derive::derive(model::resolve(&parsed, faults)?, faults));
@@ -170,7 +211,7 @@ fn momenta_over_the_links_are_slopes_of_the_energy() {
         let (bench, derivation) = (&mut derived.model.bench, &derived.system.derivation);
         assert!(derivation.is_by("constraint forces"), "{text}");
         let without_others = derivation.declined.iter().any(|(_, why)| *why == "the parameters are many");
-        assert_eq!(without_others, over_the_links, "{:?} {text}", derivation.declined);
+        assert!(without_others, "{:?} {text}", derivation.declined);
         assert_eq!(derivation.energies.momenta.len(), 26);
         for (momentum, eta) in derivation.energies.momenta.iter().zip(&derivation.system.etas) {
             let slope = bench.partial(derivation.energies.kinetic, *eta);

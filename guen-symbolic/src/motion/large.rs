@@ -16,7 +16,8 @@ use super::velocity_forms::VelocityPartials;
 use super::{DerivationError, Equations, Frame, KineticTerm, Mechanics, Solution, multibody};
 use crate::algebra::{ExprId, FastMap, Node, Rational, gradient};
 use crate::motion::thresholds::{
-    DIAGONAL_PARAMETERS, FORCES_PER_PARAMETER, MOST_FORMS, STATED_PARAMETERS, WRITTEN_OUT_PARAMETERS,
+    COMPARED_FORMS, COUPLED_COORDINATES, DIAGONAL_PARAMETERS, FORCES_PER_PARAMETER, MOST_FORMS,
+    STATED_PARAMETERS, WRITTEN_OUT_PARAMETERS,
 };
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
@@ -198,35 +199,57 @@ fn differences(
     if terms.iter().any(|term| term.forms.len() != 2) {
         return None;
     }
-    let squares = squares(bench, terms)?;
-    if squares.iter().any(|square| !bench.graph.roles(square.factor).is_constant()) {
-        return None;
+    let mut squares = squares(bench, terms)?;
+    // What a velocity is multiplied by belongs to it: the height of a link turns with `sin(q) q'`.
+    for square in &mut squares {
+        if !bench.graph.roles(square.factor).is_constant() {
+            square.form = bench.graph.mul(square.factor, square.form);
+            square.factor = bench.graph.one();
+        }
     }
     let masses: Vec<ExprId> = squares.iter().map(|square| square.mass).collect();
     let rest = potential_forces(bench, system, frame);
     // Sums that were made one have lost what they stood behind.
-    let relative = match bench.graph.nests_sums() {
+    let mut relative = match bench.graph.nests_sums() {
         true => as_written(bench, &squares),
         false => squares.iter().map(|square| Relative { edge: None, terms: square.form }).collect(),
     };
-    let lists: Vec<ExprId> = relative.iter().map(|form| form.terms).collect();
-    let (rows, drifts) = along_operators(bench, (system, frame), partials, (&squares, &lists))?;
+    let velocities: Vec<_> =
+        squares.iter().zip(&relative).map(|(square, form)| (square.factor, form.terms)).collect();
+    let (mut rows, mut drifts) = along_operators(bench, (system, frame), partials, &velocities)?;
+    // A form that differs from another one by several parameters may have hardly more by itself, as the rate of an angle; the first
+    // forms of a chain are written out, and are relative to what it hangs on. The nearest of these is looked for.
+    let is_few = system.forms.degrees <= COUPLED_COORDINATES;
+    let is_doubtful = |k: &usize| {
+        let of_root = |edge: &Edge| relative[edge.parent].edge.is_none();
+        relative[*k].edge.as_ref().is_some_and(|edge| is_few && rows[*k].len() > 1 || of_root(edge))
+    };
+    let doubtful: Vec<usize> = (0..rows.len()).filter(is_doubtful).collect();
+    let doubtful = if is_few || doubtful.len() <= COMPARED_FORMS { doubtful } else { Vec::new() };
+    let whole: Vec<_> = doubtful.iter().map(|k| (squares[*k].factor, squares[*k].form)).collect();
+    let (whole, whole_drifts) = along_operators(bench, (system, frame), partials, &whole)?;
+    for ((k, row), drift) in doubtful.into_iter().zip(whole).zip(whole_drifts) {
+        if row.len() <= rows[k].len() + 1 {
+            relative[k].edge = None;
+            (rows[k], drifts[k]) = (row, drift);
+        }
+    }
     let edges = relative.into_iter().map(|form| form.edge).collect();
     Differences { masses, edges, rows, drifts, rest }.joined(bench)
 }
 
-/// The components of affine expressions in the velocities, times the factors of squares, along `X_1..X_l` and along `X_0`; none where
-/// one is not closed.
+/// The components of affine expressions in the velocities, times constant factors, along `X_1..X_l` and along `X_0`; none where one is
+/// not closed.
 fn along_operators(
     bench: &mut Workbench,
     (system, frame): (&Mechanics, &mut Frame),
     partials: &mut VelocityPartials,
-    (squares, lists): (&[Square], &[ExprId]),
+    velocities: &[(ExprId, ExprId)],
 ) -> Option<(Vec<Vector>, Vec<ExprId>)> {
     let mut curl = Curl::new(bench, system);
     let columns = frame.operators.by_coordinate(&bench.graph);
     let (mut rows, mut drifts) = (Vec::new(), Vec::new());
-    for (square, terms) in squares.iter().zip(lists) {
+    for (factor, terms) in velocities {
         let form = partials.affine(bench, *terms)?;
         if !curl.vanishes(bench, system, &form) {
             return None;
@@ -241,7 +264,7 @@ fn along_operators(
         let mut row = Vector::default();
         for (s, terms) in sums {
             let sum = bench.graph.sum(terms);
-            let own = bench.graph.mul(square.factor, sum);
+            let own = bench.graph.mul(*factor, sum);
             let own = bench.tidy(own);
             match s {
                 0 => drifts.push(own),
