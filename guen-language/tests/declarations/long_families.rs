@@ -140,7 +140,23 @@ fn chains_on_carts_and_with_inertias_are_taken_link_by_link() {
     }
 }
 
-/// What a mass matrix or base angles give with less keeps its cost.
+/// Particles in polar coordinates: `r phi'` is no rate of a position, and its square is none of a velocity that constraint forces act on.
+#[test]
+fn velocities_that_are_no_rates_are_not_taken_for_such() {
+    let polar = size(
+        "pub system Polar {
+            count n = 15;
+            constants { m[n] > 0, k > 0 }
+            coordinates { r[n], phi[n] }
+            kinetic_energy = sum(i in 0..n: m[i]/2*(dot(r[i])^2 + r[i]^2*dot(phi[i])^2)) + (dot(r[0]) + dot(r[1]))^2/2;
+            potential_energy = sum(i in 0..n: k/2*r[i]^2);
+        }",
+    );
+    // phi'' = -2 r' phi'/r and r'' = r phi'^2 - k/m r; the first two are coupled.
+    assert!(polar.operations <= 10.0 * 15.0, "{}", polar.operations);
+}
+
+/// Systems whose mass matrix couples neighbours only, and those in relative angles, cost no more than before.
 #[test]
 fn coupled_neighbours_and_relative_angles_cost_what_they_did() {
     let neighbours = size(

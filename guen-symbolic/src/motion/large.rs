@@ -200,7 +200,7 @@ fn differences(
         return None;
     }
     let mut squares = squares(bench, terms)?;
-    // What a velocity is multiplied by belongs to it: the height of a link turns with `sin(q) q'`.
+    // A factor that is not constant is a part of the velocity form: the height of a link changes by `l sin(q) q'`.
     for square in &mut squares {
         if !bench.graph.roles(square.factor).is_constant() {
             square.form = bench.graph.mul(square.factor, square.form);
