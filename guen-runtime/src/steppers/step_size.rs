@@ -14,7 +14,7 @@ use crate::steppers::entries;
 
 /// The law by which a method's step follows its error.
 #[derive(Clone, Copy, Debug)]
-pub struct Control {
+pub(super) struct Control {
     /// The error of a step falls as this power of the step.
     pub power: u32,
     /// The factor on the step that is predicted to meet the tolerance just so.
@@ -105,7 +105,7 @@ impl Control {
 /// The error of a step in units of the tolerance, as the ratio of two numbers: `err^2 = found / allowed`. Nothing is
 /// divided, and no root taken, while the next step waits for it.
 #[derive(Clone, Copy, Debug)]
-pub struct Margin {
+pub(super) struct Margin {
     pub allowed: f64,
     pub found: f64,
 }

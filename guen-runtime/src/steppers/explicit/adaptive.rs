@@ -11,7 +11,7 @@ use crate::steppers::{all_finite, is_long, shifted};
 use crate::system::System;
 
 /// An explicit formula with an estimate of its error.
-pub trait Pair<R: Real, const N: usize> {
+pub(in crate::steppers) trait Pair<R: Real, const N: usize> {
     /// The slopes of a step, as far as dense output needs them.
     type Stages: Copy;
     /// The slopes or sums that the error of a step is measured by.
@@ -49,7 +49,7 @@ pub trait Pair<R: Real, const N: usize> {
 
 /// A step on trial.
 #[derive(Clone, Copy, Debug)]
-pub struct Attempt<R, K, E, const N: usize> {
+pub(in crate::steppers) struct Attempt<R, K, E, const N: usize> {
     pub state: [R; N],
     /// About that state, for the sizes of its entries: what is known of it early.
     pub guess: [R; N],
@@ -59,7 +59,7 @@ pub struct Attempt<R, K, E, const N: usize> {
 }
 
 /// A step that was accepted.
-pub struct Step<'a, R, K, const N: usize> {
+pub(in crate::steppers) struct Step<'a, R, K, const N: usize> {
     pub from: &'a Checkpoint<R, N>,
     pub to: &'a Checkpoint<R, N>,
     pub stages: &'a K,
@@ -90,11 +90,7 @@ struct Ready<R, const N: usize> {
     level: Option<f64>,
 }
 
-impl<'a, P, R, const N: usize> Adaptive<'a, P, P::Stages, R, N>
-where
-    P: Pair<R, N>,
-    R: Ordered,
-{
+impl<'a, P, K: Copy, R: Ordered, const N: usize> Adaptive<'a, P, K, R, N> {
     pub(in crate::steppers) fn new(pair: &'a P, settings: Settings, start: &Checkpoint<R, N>) -> Self {
         let reached = *start;
         Self { pair, settings, origin: start.time, reached, before: reached, ready: None, stages: None }
@@ -103,6 +99,7 @@ where
     /// Checks the settings and finds the first slope and step.
     fn start<S>(&mut self, system: &S, target: R) -> Result<(), Cause>
     where
+        P: Pair<R, N, Stages = K>,
         S: System<R, N> + ?Sized,
     {
         let (slope, first_step) = self.settings.begin(system, &mut self.reached)?;
@@ -130,6 +127,7 @@ where
     /// Makes so many accepted steps, or fewer if it arrives.
     fn steps<S>(&mut self, system: &S, target: R, dense: bool, steps: u32) -> Result<(), Cause>
     where
+        P: Pair<R, N, Stages = K>,
         S: System<R, N> + ?Sized,
     {
         if self.ready.is_none() {
@@ -263,9 +261,10 @@ fn keep<K: Copy>(place: &mut Option<K>, stages: &K) {
     *place = Some(*stages);
 }
 
-impl<P, R, S, const N: usize> StepperRun<R, S, N> for Adaptive<'_, P, P::Stages, R, N>
+impl<P, K, R, S, const N: usize> StepperRun<R, S, N> for Adaptive<'_, P, K, R, N>
 where
-    P: Pair<R, N>,
+    P: Pair<R, N, Stages = K>,
+    K: Copy,
     R: Ordered,
     S: System<R, N> + ?Sized,
 {

@@ -149,14 +149,15 @@ where
     }
 }
 
-impl<R, S, F, const N: usize> Method<R, S, N> for Compensated<F>
+impl<R, S, F, M, const N: usize> Method<R, S, N> for Compensated<F>
 where
     R: Real,
     S: System<R, N> + ?Sized,
-    F: Changes<R, S, N>,
+    F: Changes<R, S, N, Memory = M>,
+    M: Copy,
 {
     type Run<'a>
-        = Fixed<'a, Self, (F::Memory, [R; N]), R, N>
+        = Fixed<'a, Self, (M, [R; N]), R, N>
     where
         F: 'a;
 

@@ -79,4 +79,4 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Eul
     }
 }
 
-fixed_step!(Euler over Real, systems System);
+fixed_step!(Euler over Real, systems System, memory Slopes<R, N>);

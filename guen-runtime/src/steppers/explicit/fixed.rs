@@ -9,7 +9,7 @@ use crate::steppers::driver::statistics::Statistics;
 use crate::system::System;
 
 /// A step that is to be made.
-pub struct NextStep<'a, R, S: ?Sized, M, const N: usize> {
+pub(in crate::steppers) struct NextStep<'a, R, S: ?Sized, M, const N: usize> {
     pub system: &'a S,
     pub memory: &'a mut M,
     pub from: &'a Checkpoint<R, N>,
@@ -22,7 +22,7 @@ pub struct NextStep<'a, R, S: ?Sized, M, const N: usize> {
 }
 
 /// A step that was made, from one checkpoint to another.
-pub struct LastStep<'a, R, S: ?Sized, M, const N: usize> {
+pub(in crate::steppers) struct LastStep<'a, R, S: ?Sized, M, const N: usize> {
     pub system: &'a S,
     pub memory: M,
     pub from: &'a Checkpoint<R, N>,
@@ -30,7 +30,7 @@ pub struct LastStep<'a, R, S: ?Sized, M, const N: usize> {
 }
 
 /// A formula that makes one step.
-pub trait Formula<R: Real, S: ?Sized, const N: usize> {
+pub(in crate::steppers) trait Formula<R: Real, S: ?Sized, const N: usize> {
     /// The memory of a step, for the next one and for dense output.
     type Memory: Copy;
 
@@ -58,7 +58,9 @@ pub trait Formula<R: Real, S: ?Sized, const N: usize> {
 }
 
 /// A formula whose step is a change that is added to the state.
-pub trait Changes<R: Real, S: ?Sized, const N: usize>: Formula<R, S, N> {
+pub(in crate::steppers) trait Changes<R: Real, S: ?Sized, const N: usize>:
+    Formula<R, S, N>
+{
     /// Returns the increment that [`Formula::step`] adds to the state.
     fn change(&self, next: NextStep<'_, R, S, Self::Memory, N>) -> [R; N];
 }
@@ -84,9 +86,10 @@ impl<'a, F, M, R: Real, const N: usize> Fixed<'a, F, M, R, N> {
     }
 }
 
-impl<F, R, S, const N: usize> StepperRun<R, S, N> for Fixed<'_, F, F::Memory, R, N>
+impl<F, M, R, S, const N: usize> StepperRun<R, S, N> for Fixed<'_, F, M, R, N>
 where
-    F: Formula<R, S, N>,
+    F: Formula<R, S, N, Memory = M>,
+    M: Copy,
     R: Real,
     S: System<R, N> + ?Sized,
 {
@@ -221,9 +224,9 @@ impl<R: Real, const N: usize> Slopes<R, N> {
 
 /// The method of a formula with a fixed step, and the short ways to run it.
 macro_rules! fixed_step {
-    ($Formula:ident over $Real:ident, systems $System:ident) => {
+    ($Formula:ident over $Real:ident, systems $System:ident, memory $Memory:ty) => {
         impl<R: $Real, S: $System<R, N> + ?Sized, const N: usize> Method<R, S, N> for $Formula<R> {
-            type Run<'a> = Fixed<'a, Self, <Self as Formula<R, S, N>>::Memory, R, N>;
+            type Run<'a> = Fixed<'a, Self, $Memory, R, N>;
 
             fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
                 Fixed::new::<S>(self, start)

@@ -197,7 +197,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Changes<R, S, N> for Rk4
     }
 }
 
-fixed_step!(Rk4 over Real, systems System);
+fixed_step!(Rk4 over Real, systems System, memory Slopes<R, N>);
 in_lanes!(Rk4);
 
 impl<L: Lanes, S: System<L, N> + ?Sized, const N: usize> LaneFormula<L, S, N> for Rk4 {

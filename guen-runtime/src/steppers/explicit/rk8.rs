@@ -138,7 +138,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Changes<R, S, N> for Rk8
     }
 }
 
-fixed_step!(Rk8 over Real, systems System);
+fixed_step!(Rk8 over Real, systems System, memory Memory<R, N>);
 in_lanes!(Rk8);
 
 impl<L: Lanes, S: System<L, N> + ?Sized, const N: usize> LaneFormula<L, S, N> for Rk8 {

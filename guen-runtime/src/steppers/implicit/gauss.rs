@@ -69,7 +69,7 @@ macro_rules! gauss {
             }
         }
 
-        fixed_step!($Gauss over Ordered, systems Differentiable);
+        fixed_step!($Gauss over Ordered, systems Differentiable, memory Memory<R, N, $stages>);
     };
 }
 
