@@ -215,8 +215,8 @@ pub mod __private {
         Instances, Invariants, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable,
         Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, OutputMap, Positions,
         PositionsError, PreparedValues, Real, Report, ReportSection, Rheonomic, RunningError, Scleronomic,
-        Shape, Simulate, Smooth, Source, Sourced, System, TaylorSeries, Undriven, Unprepared, WithInputs,
-        WithScalar, entries, linearized, nalgebra_conversions, seeded,
+        Shape, Simulate, Smooth, Source, Sourced, System, TaylorSeries, Unprepared, WithInputs, WithScalar,
+        entries, linearized, nalgebra_conversions, seeded,
     };
     pub use guen_runtime::{
         actuated, condition, conserved, contact_mode, contact_states, differentiable, domain, dynamics,

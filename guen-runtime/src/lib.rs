@@ -100,7 +100,7 @@ pub use system::differentiable::{Differentiable, Equations, Generic, generic};
 pub use system::frame::Frame;
 pub use system::frame::{Commutator, Displacement};
 #[doc(hidden)]
-pub use system::hints::{Undriven, Unprepared};
+pub use system::hints::Unprepared;
 pub use system::input_law::{InputLaw, InputRecords, SmoothLaw};
 #[cfg(feature = "alloc")]
 pub use system::input_values::InputSamples;
@@ -140,6 +140,8 @@ pub use serde;
 
 /// The items that a program needs in scope to integrate systems.
 pub mod prelude {
+    #[doc(hidden)]
+    pub use crate::Unprepared as _;
     pub use crate::steppers::{
         Bounded, Direction, Dop853, Euler, Event, Gauss4, Gauss6, Guard, Integration, IntegrationResult,
         LaneMethod, Outcome, Radau5, Rk4, Rk8, Statistics, Taylor, Tsit5,
@@ -150,7 +152,5 @@ pub mod prelude {
     };
     #[cfg(feature = "alloc")]
     pub use crate::{Simulation, SimulationError, Trajectory, Trigger};
-    #[doc(hidden)]
-    pub use crate::{Undriven as _, Unprepared as _};
     pub use core::ops::ControlFlow;
 }

@@ -74,7 +74,7 @@ where
 }
 
 /// The method, begun anew at every sample.
-pub struct Holding<'h, 'a, S: Actuated<R, N>, M, R: Real, const N: usize> {
+pub(super) struct Holding<'h, 'a, S: Actuated<R, N>, M, R: Real, const N: usize> {
     method: &'h M,
     hold: RefCell<&'h mut Hold<'a, S, R, N>>,
 }
@@ -119,7 +119,7 @@ where
 }
 
 /// A run whose inputs are held from sample to sample.
-pub struct Held<'r, 'h, 'a, S: Actuated<R, N>, M, C, R: Real, const N: usize> {
+pub(super) struct Held<'r, 'h, 'a, S: Actuated<R, N>, M, C, R: Real, const N: usize> {
     method: &'r M,
     hold: &'r RefCell<&'h mut Hold<'a, S, R, N>>,
     /// The run since the last sample.

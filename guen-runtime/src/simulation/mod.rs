@@ -21,10 +21,12 @@ pub use trigger::Trigger;
 pub use without_inputs::SimulationWithoutInputs;
 
 use crate::numbers::real::Ordered;
+use crate::simulation::hold::{Hold, Sampled};
 use crate::simulation::optional_projection::OptionalProjection;
 use crate::simulation::recorder::Recorder;
 use crate::simulation::sampling::{Continuous, Sampling};
-use crate::steppers::{Dop853, Event, Guard, Integration, Interpolant, Occurrence};
+use crate::steppers::{Dop853, Event, Guard, Integration, Interpolant, Method, Occurrence, StepperRun};
+use crate::system::actuated::Actuated;
 use crate::system::simulate::Simulate;
 
 /// The tolerance of a simulation that nobody sets, relative and absolute.
@@ -210,14 +212,9 @@ where
         Self { progress: Some(Box::new(progress)), ..self }
     }
 
-    /// Runs from the start of the span to its end, forwards or backwards, and returns the motion.
-    ///
-    /// # Errors
-    ///
-    /// Settings that make no sense; else what stopped the method, what the guard found, or that the memory is not enough:
-    /// with the trajectory up to the last good time.
+    /// Runs with the inputs sampled as they are to be.
     #[allow(clippy::type_complexity, reason = "a trajectory is as general as what made it")]
-    pub fn run<P>(self, span: Range<R>) -> Result<Trajectory<S, N, R, P>, SimulationError<S, N, R, P>>
+    fn run_sampled<P>(self, span: Range<R>) -> Result<Trajectory<S, N, R, P>, SimulationError<S, N, R, P>>
     where
         P: Interpolant<R, N>,
         D: Sampling<R, S, M, P, N>,
@@ -277,5 +274,52 @@ where
             None => Ok(trajectory),
             Some(cause) => Err(SimulationError { time: end.0, cause, trajectory: Box::new(trajectory) }),
         }
+    }
+}
+
+impl<R, S, M, const N: usize, const E: usize> Simulation<'_, S, N, R, M, E>
+where
+    R: Ordered,
+    S: Simulate<R, N>,
+{
+    /// Runs from the start of the span to its end, forwards or backwards, and returns the motion.
+    ///
+    /// # Errors
+    ///
+    /// Settings that make no sense; else what stopped the method, what the guard found, or that the memory is not enough:
+    /// with the trajectory up to the last good time.
+    #[allow(clippy::type_complexity, reason = "a trajectory is as general as what made it")]
+    pub fn run<P>(self, span: Range<R>) -> Result<Trajectory<S, N, R, P>, SimulationError<S, N, R, P>>
+    where
+        P: Interpolant<R, N>,
+        M: Method<R, OptionalProjection<S>, N>,
+        for<'r> M::Run<'r>: StepperRun<R, OptionalProjection<S>, N, Polynomial = P>,
+    {
+        self.run_sampled(span)
+    }
+}
+
+impl<S, R, M, const N: usize, const E: usize> Simulation<'_, Sampled<S, R, N>, N, R, M, E, Hold<'_, S, R, N>>
+where
+    R: Ordered,
+    S: Actuated<R, N>,
+{
+    /// Runs from the start of the span to its end, forwards, and returns the motion with the inputs that the controller held.
+    ///
+    /// # Errors
+    ///
+    /// Settings that make no sense; else what stopped the method, what the guard found, or that the memory is not enough:
+    /// with the trajectory up to the last good time.
+    #[allow(clippy::type_complexity, reason = "a trajectory is as general as what made it")]
+    pub fn run<P>(
+        self,
+        span: Range<R>,
+    ) -> Result<Trajectory<Sampled<S, R, N>, N, R, P>, SimulationError<Sampled<S, R, N>, N, R, P>>
+    where
+        P: Interpolant<R, N>,
+        M: Method<R, OptionalProjection<S::Driven>, N>,
+        for<'r> M::Run<'r>: StepperRun<R, OptionalProjection<S::Driven>, N, Polynomial = P>,
+    {
+        self.run_sampled(span)
     }
 }

@@ -34,14 +34,14 @@ impl<R, P> Log<R, P> {
 }
 
 /// The method with its log.
-pub struct Recorder<'m, M, R, P> {
+pub(super) struct Recorder<'m, M, R, P> {
     method: &'m M,
     log: RefCell<Log<R, P>>,
 }
 
 impl<'m, M, R, P> Recorder<'m, M, R, P> {
     /// The method, with `beside` bytes of memory for each step that others take.
-    pub fn new(method: &'m M, memory: usize, beside: usize) -> Self {
+    pub(super) fn new(method: &'m M, memory: usize, beside: usize) -> Self {
         let most = memory / (size_of::<Step<R, P>>() + beside).max(1);
         Self { method, log: RefCell::new(Log { steps: Vec::new(), most, memory }) }
     }
@@ -70,7 +70,7 @@ where
 }
 
 /// A run of the method.
-pub struct Recorded<'a, C, R, P, const N: usize> {
+pub(super) struct Recorded<'a, C, R, P, const N: usize> {
     run: C,
     log: &'a RefCell<Log<R, P>>,
     last: Option<P>,

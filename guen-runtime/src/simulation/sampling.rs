@@ -7,7 +7,7 @@ use crate::steppers::{Interpolant, Method, StepperRun};
 use crate::system::simulate::Simulate;
 
 /// A way to run a method `M` with dense output `P` where inputs may be sampled.
-pub trait Sampling<R: Real, S, M, P, const N: usize> {
+pub(super) trait Sampling<R: Real, S, M, P, const N: usize> {
     /// The memory that the inputs of a sample take, in bytes.
     const MEMORY: usize;
 

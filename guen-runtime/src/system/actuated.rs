@@ -7,6 +7,7 @@ use crate::numbers::real::Ordered;
 use crate::numbers::real::Real;
 #[cfg(feature = "alloc")]
 use crate::simulation::SimulationWithoutInputs;
+use crate::system::hints::Inputs;
 use crate::system::input_law::{InputLaw, InputRecords, SmoothLaw};
 use crate::system::linearization::Liftable;
 use crate::system::simulate::Simulate;
@@ -87,6 +88,15 @@ pub trait Actuated<R: Real, const N: usize> {
         Self: Clone,
     {
         SimulationWithoutInputs::new(self.clone(), start)
+    }
+
+    /// Answers with the message of its bound: inputs come first.
+    #[doc(hidden)]
+    fn simulate<Start, Span, Motion>(&mut self, _: Start, _: Span) -> Motion
+    where
+        Self: Inputs,
+    {
+        self.never()
     }
 }
 

@@ -1,7 +1,8 @@
 //! Messages for calls that come too early: constants that are not prepared, and prepared systems whose inputs nobody has set.
 //!
-//! Constants have no method [`simulate`](crate::Simulate::simulate), and without this module the compiler would say only that. The
-//! traits here give them methods of the same names with a bound that no type fulfils: the error for that bound is our message.
+//! Constants have no method [`simulate`](crate::Simulate::simulate), and without this module the compiler would say only that.
+//! [`Unprepared`] gives them methods of the same names, and [`Actuated`](crate::Actuated) one to a prepared system without inputs, with a
+//! bound that no type fulfils: the error for that bound is our message.
 //! The methods take `&mut self`, which the compiler tries after the `&self` of the real ones. They are written out and not made by a
 //! macro, because the compiler would show the macro in its message.
 
@@ -57,18 +58,6 @@ pub trait Unprepared {
     }
 }
 
-/// A prepared system with inputs, before it has some.
-#[doc(hidden)]
-pub trait Undriven {
-    /// Answers with the message of its bound.
-    fn simulate<Start, Span, Motion>(&mut self, _: Start, _: Span) -> Motion
-    where
-        Self: Inputs,
-    {
-        self.never()
-    }
-}
-
 /// The bound of [`Unprepared`]: nothing implements it.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not prepared: constants become a system by `.prepare()?`",
@@ -80,7 +69,7 @@ pub trait Preparation {
     fn never<Answer>(&self) -> Answer;
 }
 
-/// The bound of [`Undriven`]: nothing implements it.
+/// The bound of [`simulate`](crate::Actuated::simulate) before there are inputs: nothing implements it.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has inputs that nobody has set: `.with_inputs(|t, state| ..)` makes them functions, `.driven(inputs)` holds them",
     label = "`.with_inputs(..)` is missing before this call"

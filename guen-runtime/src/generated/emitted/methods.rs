@@ -379,8 +379,6 @@ macro_rules! actuated {
             }
         }
 
-        impl<R $($(, $F: $crate::Smooth<$N>)*)?> $crate::Undriven for Prepared<R $($(, $F)*)?> {}
-
         impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> $crate::Actuated<R, $size> for Prepared<R $($(, $F)*)?> {
             type Inputs = Inputs<R>;
             type Driven = Driven<R $($(, $F)*)?>;
