@@ -60,8 +60,8 @@ pub use guen_runtime::{
     Levels, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputMap, Positions,
     PositionsError, Projected, Real, Renormalized, Report, ReportSection, Rheonomic, RunningError,
     Scleronomic, Setting, Simulate, Smooth, SmoothLaw, Source, Sourced, System, Table, TableError,
-    WithFunctions, WithInputs, WithScalar, from_fn, generic, hybrid, lanes, project, projected, renormalized,
-    steppers,
+    WithFunctions, WithInputs, WithScalar, from_fn, generic, hybrid, lanes, maximum, minimum, project,
+    projected, renormalized, select, steppers,
 };
 pub use guen_runtime::{Coefficients, Convolutions, DrivenSeries, HIGHEST_ORDER, PowerSeries, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, linearized, seeded};
@@ -216,7 +216,7 @@ pub mod __private {
         Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, OutputMap, Positions,
         PositionsError, PreparedValues, Real, Report, ReportSection, Rheonomic, RunningError, Scleronomic,
         Shape, Simulate, Smooth, Source, Sourced, System, TaylorSeries, Unprepared, WithInputs, WithScalar,
-        entries, linearized, nalgebra_conversions, seeded,
+        entries, linearized, maximum, minimum, nalgebra_conversions, seeded, select,
     };
     pub use guen_runtime::{
         actuated, condition, conserved, contact_mode, contact_states, differentiable, domain, dynamics,

@@ -67,6 +67,7 @@ pub use generated::checks;
 pub use generated::cost::Cost;
 pub use generated::derived::Derived;
 pub use generated::entries::{EntryNames, entries, with_entries};
+pub use numbers::choices::{maximum, minimum, select};
 pub use numbers::dual::Dual;
 pub use numbers::lanes;
 pub use numbers::lift::Lift;

@@ -2,7 +2,7 @@
 
 use guen::mechanical_system;
 use guen::steppers::{Dop853, Integration, Outcome};
-use guen::{Dual, Real, Simulate, System};
+use guen::{Dual, Real, Simulate, System, maximum, minimum, select};
 
 mechanical_system! {
     /// Forces with every piecewise function, along a coordinate each.
@@ -102,16 +102,21 @@ fn slopes_are_those_of_the_branch() {
 fn nothing_is_chosen_by_what_is_not_a_number() {
     fn check<R: Real>() {
         let (nan, one, two) = (R::from_f64(f64::NAN), R::one(), R::from_ratio(2, 1));
-        let chosen =
-            [nan.select(one, two), nan.minimum(one), one.minimum(nan), nan.maximum(one), one.maximum(nan)];
+        let chosen = [
+            select(nan, one, two),
+            minimum(nan, one),
+            minimum(one, nan),
+            maximum(nan, one),
+            maximum(one, nan),
+        ];
         assert!(chosen.iter().all(|x| x.to_f64().is_nan()), "{chosen:?}");
         assert_eq!(
-            [one.minimum(two), two.minimum(one), one.maximum(two), two.maximum(one)],
+            [minimum(one, two), minimum(two, one), maximum(one, two), maximum(two, one)],
             [one, one, two, two]
         );
         let half = R::from_ratio(1, 2);
         assert_eq!([half.floor(), (-half).floor(), two.floor()], [R::zero(), -one, two]);
-        assert_eq!([R::zero().select(one, two), (-half).select(one, two)], [one, two]);
+        assert_eq!([select(R::zero(), one, two), select(-half, one, two)], [one, two]);
     }
     check::<f64>();
     check::<f32>();

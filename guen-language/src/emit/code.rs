@@ -448,12 +448,13 @@ impl Writer {
 
 /// A call of a function of several arguments.
 pub(super) fn apply(function: Multivariate, arguments: &[String]) -> String {
-    let name = match function {
-        Multivariate::Minimum => "minimum",
-        Multivariate::Maximum => "maximum",
-        known => known.name(),
-    };
-    format!("R::{name}({})", arguments.join(", "))
+    let arguments = arguments.join(", ");
+    match function {
+        Multivariate::Minimum => format!("__guen::minimum({arguments})"),
+        Multivariate::Maximum => format!("__guen::maximum({arguments})"),
+        Multivariate::Select => format!("__guen::select({arguments})"),
+        known => format!("R::{}({arguments})", known.name()),
+    }
 }
 
 pub(super) fn call(function: Function, argument: &str) -> String {

@@ -6,7 +6,7 @@ use crate::numbers::real::Real;
 ///
 /// Derivatives are those of the method, by dual numbers, to the order that the equations of motion need. So it has to be as
 /// smooth as that: twice differentiable where it stands in a constraint or in a position, once in an energy, and not at all in a
-/// force. A branch on the value of an argument is written by [`Real::select`], [`Real::minimum`] and their like.
+/// force. A branch on the value of an argument is written by [`select`](crate::select), [`minimum`](crate::minimum) and [`maximum`](crate::maximum).
 ///
 /// A number is a constant function, [`Table`](crate::Table) and [`Grid`](crate::Grid) interpolate, and what a
 /// `&'static` reference leads to is a function too.

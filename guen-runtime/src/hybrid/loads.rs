@@ -5,6 +5,7 @@
 
 use crate::hybrid::filled::{filled, table};
 
+use crate::numbers::choices::most;
 use crate::numbers::real::Real;
 
 /// The reactions of permanent constraints that load grips, one for each element; zero for elements without such a load.
@@ -55,7 +56,7 @@ pub(super) fn magnitudes<R: Real, const C: usize>(
     for _ in 0..STEPS {
         let right = filled(|c| signs[c] * free[c]);
         (found, _) = solved(matrix(coupling, &signs), right);
-        let Some(c) = (0..C).find(|&c| slips[c] && (-found[c]).most() > 0.0) else { return found };
+        let Some(c) = (0..C).find(|&c| slips[c] && most(-found[c]) > 0.0) else { return found };
         signs[c] = found[c].where_above(zero, signs[c], -signs[c]);
     }
     let nothing = zero * zero.recip();

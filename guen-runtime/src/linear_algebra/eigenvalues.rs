@@ -85,7 +85,8 @@ impl<R: Ordered, const K: usize> Reflection<R, K> {
         if most == R::zero() {
             return None;
         }
-        let most = most.max(vector[0].abs());
+        let first = vector[0].abs();
+        let most = if most > first { most } else { first };
         vector.iter_mut().for_each(|x| *x /= most);
         let size = length(&vector);
         let size = if vector[0] < R::zero() { -size } else { size };

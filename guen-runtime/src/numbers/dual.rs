@@ -331,11 +331,6 @@ impl<R: Real, const N: usize> Real for Dual<R, N> {
         Self { value: choose(above.value, below.value), tangent: above.zip(&below, choose) }
     }
 
-    #[inline(always)]
-    fn most(self) -> f64 {
-        self.value.most()
-    }
-
     fn each_alone(function: impl Fn(&dyn Fn(Self) -> f64) -> f64) -> Self {
         Self::constant(R::each_alone(|alone| function(&|x| alone(x.value))))
     }

@@ -8,9 +8,11 @@
 //! | `power_series` | a value with its Taylor coefficients |
 //! | `with_functions` | a real with exchanged elementary functions |
 //! | `lanes` | several reals in the registers of the processor |
+//! | `choices` | the smaller, the larger, the one of a condition: the same for every real |
 //! | `lift` | from a real to those built over it |
 //! | `rules`, `decimal` | rules of derivatives, and long constants, that these share |
 
+pub(crate) mod choices;
 pub(crate) mod decimal;
 pub(crate) mod dual;
 pub(crate) mod elementary;

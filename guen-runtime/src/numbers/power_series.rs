@@ -414,10 +414,6 @@ impl<R: Real> Real for PowerSeries<R> {
         })
     }
 
-    fn most(self) -> f64 {
-        self.coefficients[0].most()
-    }
-
     fn each_alone(function: impl Fn(&dyn Fn(Self) -> f64) -> f64) -> Self {
         Self::constant(R::each_alone(|alone| function(&|series: Self| alone(series.coefficients[0]))))
     }

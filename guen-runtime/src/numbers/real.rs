@@ -65,7 +65,7 @@ pub trait Real:
     fn from_f64(value: f64) -> Self;
 
     /// The nearest `f64`: for messages, step control and plots. Derived reals answer with their value; lanes,
-    /// which share their time, with the first lane: [`most`](Real::most) asks all of them.
+    /// which share their time, with the first lane: [`each_alone`](Real::each_alone) asks all of them.
     fn to_f64(self) -> f64;
 
     /// The number `sum m 2^e` over `parts = [(m, e), ..]`, in descending order of magnitude.
@@ -209,42 +209,6 @@ pub trait Real:
         Self::each_alone(|alone| libm::floor(alone(self)))
     }
 
-    /// `above` where this is at least zero, `below` where it is less, and NaN where it is NaN; in every lane by itself.
-    ///
-    /// ```
-    /// use guen_runtime::Real;
-    /// assert_eq!([1.0, 0.0, -1.0].map(|c: f64| c.select(10.0, 20.0)), [10.0, 10.0, 20.0]);
-    /// assert!(f64::NAN.select(10.0, 20.0).is_nan());
-    /// ```
-    #[inline(always)]
-    fn select(self, above: Self, below: Self) -> Self {
-        (-self).where_above(Self::zero(), self.where_above(Self::zero(), self, below), above)
-    }
-
-    /// The smaller of two; NaN where one of them is. Not named `min`: `f64` has a method of that name, which ignores NaN.
-    ///
-    /// ```
-    /// use guen_runtime::Real;
-    /// assert_eq!(Real::minimum(2.0, 1.0_f64), 1.0);
-    /// assert!(Real::minimum(f64::NAN, 1.0).is_nan() && Real::minimum(1.0, f64::NAN).is_nan());
-    /// ```
-    #[inline(always)]
-    fn minimum(self, other: Self) -> Self {
-        self.where_above(other, other.where_above(self, self + other, other), self)
-    }
-
-    /// The larger of two; NaN where one of them is.
-    ///
-    /// ```
-    /// use guen_runtime::Real;
-    /// assert_eq!(Real::maximum(2.0, 1.0_f64), 2.0);
-    /// assert!(Real::maximum(f64::NAN, 1.0).is_nan() && Real::maximum(1.0, f64::NAN).is_nan());
-    /// ```
-    #[inline(always)]
-    fn maximum(self, other: Self) -> Self {
-        self.where_above(other, other.where_above(self, self + other, self), other)
-    }
-
     /// The power `self^n`, by repeated squaring: at most `2 log2 |n|` products, and a reciprocal for negative
     /// `n`. `x^0` is 1 for every `x`.
     ///
@@ -352,27 +316,6 @@ pub trait Real:
         if self.to_f64() <= limit.to_f64() { below } else { above }
     }
 
-    /// The largest of the numbers that it consists of, as the nearest `f64`, and NaN if one of them is: of
-    /// [`Lanes`](crate::numbers::lanes::Lanes) that of all lanes, of any other real [`to_f64`](Real::to_f64).
-    ///
-    /// ```
-    /// use guen_runtime::Real;
-    /// use guen_runtime::lanes::{LaneTask, Lanes, Width, dispatch};
-    ///
-    /// struct Most;
-    /// impl LaneTask for Most {
-    ///     type Output = f64;
-    ///     fn run<L: Lanes>(self) -> f64 {
-    ///         L::from_fn(|lane| if lane == 2 { 7.0 } else { 1.0 }).most()
-    ///     }
-    /// }
-    /// assert_eq!((2.5_f64.most(), dispatch(Width::Four, Most)), (2.5, 7.0));
-    /// ```
-    #[inline(always)]
-    fn most(self) -> f64 {
-        self.to_f64()
-    }
-
     /// Applies a function of doubles in every lane by itself, where the real consists of
     /// [`Lanes`](crate::numbers::lanes::Lanes): it is given the function that takes the number of its lane out of a
     /// real.
@@ -391,19 +334,7 @@ pub trait Real:
 }
 
 /// A real with an order, as adaptive step control needs it. Lanes are no `Ordered`: each has its own error.
-pub trait Ordered: Real + PartialOrd {
-    /// The larger of two numbers; if they cannot be compared, `other`.
-    #[inline]
-    fn max(self, other: Self) -> Self {
-        if self > other { self } else { other }
-    }
-
-    /// The smaller of two numbers; if they cannot be compared, `other`.
-    #[inline]
-    fn min(self, other: Self) -> Self {
-        if self < other { self } else { other }
-    }
-}
+pub trait Ordered: Real + PartialOrd {}
 
 /// `value * 2^exponent` in factors of at most `2^60`, which every real represents exactly.
 fn scaled<R: Real>(value: R, exponent: i32) -> R {

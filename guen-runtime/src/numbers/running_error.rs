@@ -366,11 +366,6 @@ impl<R: Real> Real for RunningError<R> {
         Self { value: choose(above.value, below.value), error: choose(above.error, below.error) }
     }
 
-    #[inline(always)]
-    fn most(self) -> f64 {
-        self.value.most()
-    }
-
     fn each_alone(function: impl Fn(&dyn Fn(Self) -> f64) -> f64) -> Self {
         Self::exact(R::each_alone(|alone| function(&|x| alone(x.value))))
     }

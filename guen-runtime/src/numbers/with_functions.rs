@@ -273,11 +273,6 @@ macro_rules! functions {
                 Self::new(self.value.where_above(limit.value, above.value, below.value))
             }
 
-            #[inline(always)]
-            fn most(self) -> f64 {
-                self.value.most()
-            }
-
             fn each_alone(function: impl Fn(&dyn Fn(Self) -> f64) -> f64) -> Self {
                 Self::new(R::each_alone(|alone| function(&|x| alone(x.value))))
             }

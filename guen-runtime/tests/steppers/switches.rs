@@ -2,7 +2,7 @@
 //! tolerance as on smooth systems; others count it.
 
 use guen_runtime::steppers::{Cause, Dop853, Integration, Outcome, Radau5, Rk4, Tsit5};
-use guen_runtime::{Differentiable, Dual, Real, System};
+use guen_runtime::{Differentiable, Dual, Real, System, maximum};
 
 /// An oscillator between two springs that begin at a distance: free in between.
 #[derive(Clone, Copy)]
@@ -12,7 +12,7 @@ impl<R: Real> System<R, 2> for Gap {
     fn rhs(&self, _t: R, &[x, v]: &[R; 2]) -> [R; 2] {
         let one = R::one();
         let stiffness = R::from_ratio(400, 1);
-        let push = (-one - x).maximum(R::zero()) - (x - one).maximum(R::zero());
+        let push = maximum(-one - x, R::zero()) - maximum(x - one, R::zero());
         [v, stiffness * push]
     }
 

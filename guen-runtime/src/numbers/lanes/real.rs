@@ -134,12 +134,6 @@ impl<V: Register> Real for Vector<V> {
         Self(self.0.where_above(limit.0, above.0, below.0))
     }
 
-    #[inline(always)]
-    fn most(self) -> f64 {
-        let larger = |most: f64, x: f64| if x <= most || most.is_nan() { most } else { x };
-        (1..V::COUNT).map(|i| self.lane(i)).fold(self.lane(0), larger)
-    }
-
     fn each_alone(function: impl Fn(&dyn Fn(Self) -> f64) -> f64) -> Self {
         Self::from_fn(|i| function(&|x| x.lane(i)))
     }

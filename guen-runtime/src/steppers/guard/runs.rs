@@ -1,5 +1,6 @@
 //! The runs that a guard judges: one, whatever its real consists of, or one in every lane.
 
+use crate::numbers::choices::most;
 use crate::numbers::lanes::{Lanes, Mask};
 use crate::numbers::real::Real;
 
@@ -28,7 +29,7 @@ impl<R: Real> Runs<R> for One {
 
     #[inline(always)]
     fn alone(x: R, _run: usize) -> f64 {
-        x.most()
+        most(x)
     }
 
     #[inline(always)]
