@@ -4,7 +4,7 @@
 //!
 //! | question | answer |
 //! | --- | --- |
-//! | what is a number? | [`Real`], [`Ordered`], [`Dual`], [`RunningError`]; [`Lift`] embeds a base real |
+//! | what is a number? | [`Real`], [`Ordered`], [`Dual`], [`RunningError`]; [`Lift`] embeds a base real; [`select`], [`minimum`], [`maximum`] choose |
 //! | what is integrated? | [`System`], [`Monitored`], [`Differentiable`], [`TaylorSeries`], [`from_fn`], [`generic`] |
 //! | which functions does it have? | [`WithFunctions`]: [`Approx13`], [`Approx7`], [`Fused`], [`Functions`] of your own |
 //! | which functions does the program supply? | [`Smooth`], [`Table`], [`Grid`] |

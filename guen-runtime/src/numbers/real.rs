@@ -2,7 +2,8 @@
 //!
 //! In goes nothing but arithmetic; out comes one trait, [`Real`], small enough that a new scalar (a lane, an
 //! extended-precision number, a [`Dual`](crate::Dual)) can be written in an afternoon, and large enough that
-//! every expression of the language has a method. Comparison is kept apart in [`Ordered`], because a right-hand
+//! every expression of the language has a method, unless it follows from others for every real alike, as
+//! [`select`](crate::select) does. Comparison is kept apart in [`Ordered`], because a right-hand
 //! side is straight-line code and never compares, and because a register of lanes has no single order.
 
 use core::fmt::Debug;
