@@ -36,6 +36,9 @@ fn costs_of_large_systems_are_those_of_the_file() {
         ("bars10-xy", bars::in_points(10)),
         ("bars40", bars::in_angles(40)),
         ("bars40-xy", bars::in_points(40)),
+        ("hinged1", robots::hinged_rods(1)),
+        ("hinged2", robots::hinged_rods(2)),
+        ("hinged3", robots::hinged_rods(3)),
     ];
     let header =
         format!("# Operations of large systems, written by `GUEN_BLESS=1 {COMMAND}`.\n# As in costs.txt.\n");

@@ -103,6 +103,41 @@ pub fn pinned_rods(count: usize) -> String {
     )
 }
 
+/// Rods on hinges at right angles to both of their rods, each with a quaternion and its centre as coordinates: pins and hinges are
+/// holonomic equations.
+pub fn hinged_rods(count: usize) -> String {
+    let list = |entry: &dyn Fn(usize) -> String| (1..=count).map(entry).collect::<Vec<_>>();
+    let joint = |i: usize| match i {
+        1 => "pin1: p1 - l1/2*R1.x = vec(0, 0, 0); across1: R1.z.x = 0; along1: R1.z.y = 0;".to_owned(),
+        _ => format!(
+            "pin{i}: p{i} - l{i}/2*R{i}.x = p{old} + l{old}/2*R{old}.x; across{i}: inner(R{i}.z, R{old}.z) = 0; \
+             along{i}: inner(R{i}.z, R{old}.x) = 0;",
+            old = i - 1
+        ),
+    };
+    let turn = |i: usize| match i {
+        1 => "angular_velocity_body(R1).z".to_owned(),
+        _ => format!("inner(R{i}.z, angular_velocity(R{i}) - angular_velocity(R{}))", i - 1),
+    };
+    format!(
+        "pub system Rods {{ constants {{ g = 9.81, {} }} coordinates {{ {} }} {} holonomic {{ {} {} }} bodies {{ {} }} \
+         parameters {{ {} }} gravity = vec(0, -g, 0); }}",
+        list(&|i| format!("l{i} > 0, m{i} > 0, I{i} > 0")).join(", "),
+        list(&|i| format!("a{i}, b{i}, c{i}, w{i}, x{i}, y{i}, z{i}")).join(", "),
+        list(&|i| format!(
+            "let R{i} = quaternion(w{i}, x{i}, y{i}, z{i}); let p{i} = vec(a{i}, b{i}, c{i});"
+        ))
+        .join(" "),
+        list(&|i| format!("unit{i}: w{i}^2 + x{i}^2 + y{i}^2 + z{i}^2 = 1;")).join(" "),
+        list(&joint).join(" "),
+        list(&|i| format!(
+            "B{i} {{ mass: m{i}, inertia: diag(0, I{i}, I{i}), center: p{i}, orientation: R{i} }}"
+        ))
+        .join(" "),
+        list(&|i| format!("turn{i} = {};", turn(i))).join(" "),
+    )
+}
+
 /// A crane: a tower that slews, a boom that luffs, a cable of so many segments in space and a load on a hook beside its centre.
 pub fn crane(segments: usize) -> String {
     format!(

@@ -59,6 +59,7 @@ impl Systems {
             ("rods4-rel", robots::rods(4, true)),
             ("rods2-pins", robots::pinned_rods(2)),
             ("rods3-pins", robots::pinned_rods(3)),
+            ("rods3-hinges", robots::hinged_rods(3)),
             ("bars2", bars::in_angles(2)),
             ("bars2-xy", bars::in_points(2)),
             ("bars10", bars::in_angles(10)),
