@@ -140,7 +140,7 @@ fn chains_on_carts_and_with_inertias_are_taken_link_by_link() {
     }
 }
 
-/// Particles in polar coordinates: `r phi'` is no rate of a position, and its square is none of a velocity that constraint forces act on.
+/// In polar coordinates the velocity `r phi'` is not the rate of any function of positions. No constraint force may be introduced along it.
 #[test]
 fn velocities_that_are_no_rates_are_not_taken_for_such() {
     let polar = size(
