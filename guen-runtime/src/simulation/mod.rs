@@ -212,7 +212,7 @@ where
         Self { progress: Some(Box::new(progress)), ..self }
     }
 
-    /// Runs with the inputs sampled as they are to be.
+    /// Runs with inputs that are continuous, or held between samples, as `D` says.
     #[allow(clippy::type_complexity, reason = "a trajectory is as general as what made it")]
     fn run_sampled<P>(self, span: Range<R>) -> Result<Trajectory<S, N, R, P>, SimulationError<S, N, R, P>>
     where

@@ -217,8 +217,9 @@ fn differences(
     let velocities: Vec<_> =
         squares.iter().zip(&relative).map(|(square, form)| (square.factor, form.terms)).collect();
     let (mut rows, mut drifts) = along_operators(bench, (system, frame), partials, &velocities)?;
-    // A form that differs from another one by several parameters may have hardly more by itself, as the rate of an angle; the first
-    // forms of a chain are written out, and are relative to what it hangs on. The nearest of these is looked for.
+    // Each form was written as an older form and a difference. Where the difference has nearly as many parameters as the form, the
+    // form itself is kept. Doubtful are differences of several parameters, and the first forms of a chain, which hang on its root. For
+    // those that are kept, `joined` looks for the nearest of all.
     let is_few = system.forms.degrees <= COUPLED_COORDINATES;
     let is_doubtful = |k: &usize| {
         let of_root = |edge: &Edge| relative[edge.parent].edge.is_none();

@@ -64,7 +64,8 @@ pub(in crate::motion) const COMPARED_SUMS: usize = 400;
 /// The number of products for every angle of a form from which on it is not looked at.
 pub(in crate::motion) const PRODUCTS_OF_AN_ANGLE: usize = 400;
 
-/// The number of forms of a system of more than [`COUPLED_COORDINATES`] above which the nearest of each is not looked for: all pairs are.
+/// The number of velocity forms above which no nearest form is looked for in systems of more than [`COUPLED_COORDINATES`]: the search
+/// compares all pairs.
 pub(in crate::motion) const COMPARED_FORMS: usize = 64;
 
 /// The number of forms of the energy for each parameter above which no constraint forces between them are unknowns.
