@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Prints what was derived and a table of the motion, writes pictures and a page that plays the motion to
-//! `target/guen/hoop`, and ends with a nonzero status if the motion does not keep what it has to keep.
+//! `target/guen/hoop`, and ends with a nonzero status if an invariant drifts.
 
 use std::error::Error;
 use std::path::Path;
@@ -215,7 +215,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     }
 }
 
-/// The first seconds as a page: the hoop on its plane, where it touches it, and what it has to keep.
+/// The first seconds as a page: the hoop on its plane, where it touches it, and its invariants.
 fn play(hoop: &hoop::Prepared, start: hoop::State, until: f64, path: &Path) -> Result<(), Box<dyn Error>> {
     const PICTURES_PER_SECOND: f64 = 60.0;
     const THICKNESS: f64 = 0.1;
