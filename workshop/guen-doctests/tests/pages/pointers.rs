@@ -1,5 +1,6 @@
 //! What the pages say of the code: files that they name are there, and those of `docs/theory.md` name the equation in turn.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use guen_doctests::{files, packages, pages, root};
@@ -102,6 +103,58 @@ fn named_files_without_a_folder_are_there() {
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
     assert!(count > 40, "only {count} names were found");
+}
+
+/// The names of constants in backticks of a text: capitals, digits and `_` alone, with four letters and more, so that the symbols
+/// of a formula are none.
+fn constants(text: &str) -> impl Iterator<Item = &str> {
+    let is_constant = |code: &&str| {
+        code.chars().all(|c| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_')
+            && code.chars().filter(char::is_ascii_uppercase).count() > 3
+    };
+    plain(text).filter(is_constant)
+}
+
+/// The names of constants in the files that may define one.
+fn defined(repository: &[String]) -> BTreeSet<String> {
+    let may_define = |path: &&String| {
+        let extension = Path::new(path).extension().and_then(|extension| extension.to_str());
+        matches!(extension, None | Some("rs" | "py" | "toml"))
+    };
+    let is_capital = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_';
+    let mut found = BTreeSet::new();
+    for path in repository.iter().filter(may_define) {
+        let text = std::fs::read_to_string(root().join(path)).unwrap_or_default();
+        let names = text.split(|c| !is_capital(c)).filter(|name| name.len() > 3);
+        found.extend(names.map(str::to_owned));
+    }
+    found
+}
+
+/// Constants that pages of the book name are there. CONTRIBUTING names some that are not, to say how not to name.
+#[test]
+fn named_constants_are_there() {
+    let known = defined(&repository());
+    let (mut faults, mut count) = (Vec::new(), 0);
+    for page in pages().iter().filter(|page| page.path.starts_with("docs/")) {
+        for (line, text) in page.prose() {
+            for name in constants(text) {
+                count += 1;
+                if !known.contains(name) {
+                    faults.push(format!("{}:{line}: there is no `{name}`", page.path));
+                }
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    assert!(count > 40, "only {count} constants were found");
+}
+
+#[test]
+fn names_of_constants_are_told_from_formulas() {
+    let found: Vec<&str> =
+        constants("`MAX_STEPS`, `M_11`, `M_SS`, `VITALS`, `DOP853`, `Guard`, `A-B`").collect();
+    assert_eq!(found, ["MAX_STEPS", "VITALS"]);
 }
 
 #[test]
