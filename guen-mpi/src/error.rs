@@ -5,7 +5,7 @@ use std::fmt;
 use guen_study::SweepError;
 use mpi::Rank;
 
-/// Why a run over ranks has ended. All ranks end with an error if one does; what is finished is not lost.
+/// The reason why a run over ranks has ended. All ranks end with an error if one does; what is finished is not lost.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Error {

@@ -6,7 +6,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why a file or a picture could not be made.
+/// The reason why a file or a picture could not be made.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum StudyError {

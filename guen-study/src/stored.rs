@@ -44,7 +44,7 @@ impl<const N: usize> Serialize for Recording<N> {
     }
 }
 
-/// Why these times are not those of a run: it goes one way, and is at the same time twice only where its state jumps.
+/// The reason why these times are not those of a run: it goes one way, and is at the same time twice only where its state jumps.
 fn disorder(times: &[f64]) -> Option<String> {
     let backwards = times.first() > times.last();
     let ordered = |pair: &[f64]| if backwards { pair[0] >= pair[1] } else { pair[0] <= pair[1] };

@@ -5,7 +5,7 @@ use guen_symbolic::{Dependence, ExprId, Workbench};
 
 use super::selection::StateIndex;
 
-/// Why a variable is kept.
+/// The reason why a variable is kept.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Reason {
     /// `track` names it, or there is no `track` and it is a parameter.

@@ -8,7 +8,7 @@ use super::closure::{Quadrature, Reason};
 pub struct SceneFacts {
     /// The index in the model.
     pub index: usize,
-    /// Why each variable is kept, by its place in the whole state; none for those that left.
+    /// The reason why each variable is kept, by its place in the whole state; none for those that left.
     pub reasons: Vec<Option<Reason>>,
     /// Variables that left and are pure quadratures, in layers: the rates of each depend on what is kept and on the layers
     /// before.

@@ -1,4 +1,4 @@
-//! Why a checked model has no equations of motion, in the user's names.
+//! The reason why a checked model has no equations of motion, in the user's names.
 
 use guen_symbolic::{
     COUPLED_COORDINATES, Derivation, DerivationError, ExprId, MAX_WORK, SingularForms, Verdict,

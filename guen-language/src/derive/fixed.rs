@@ -8,7 +8,7 @@ use crate::diagnostics::{Fault, Faults};
 use crate::model::{Contacts, FixedConstant, Model, SceneEntry};
 use crate::syntax::Name;
 
-/// Why fixed values cannot be.
+/// The reason why fixed values cannot be.
 enum Trouble {
     Forms,
     Inertia,

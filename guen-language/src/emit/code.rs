@@ -25,10 +25,10 @@ pub(super) trait Loads {
 /// The way in which the parts of a long body stand.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Parts {
-    /// As blocks: a caller with the registers of lanes has all of them.
+    /// Blocks: a caller with the registers of lanes has all of them.
     Blocks,
-    /// As closures, each of which has a frame of its own in a build without optimisation. What three derivatives with bounds of their
-    /// roundings are computed in is so long that the frame of 600 statements takes 2.7 MB.
+    /// Closures, each of which has a frame of its own in a build without optimisation. The numbers that hold three derivatives with
+    /// bounds of their roundings are so long that the frame of 600 statements takes 2.7 MB.
     Closures,
 }
 

@@ -50,7 +50,7 @@ struct Kind {
 /// The functions that the program supplies, as fields and as parameters of types.
 pub(super) struct Supplied {
     functions: Vec<Function>,
-    /// In the order of the fields.
+    /// The parameters of types, in the order of the fields.
     kinds: Vec<Kind>,
     /// The types that have the parameters.
     types: Vec<String>,

@@ -10,7 +10,7 @@ use crate::syntax::Name;
 #[derive(Default)]
 pub(super) struct AssumedRates(pub(super) BTreeMap<String, Assumed>);
 
-/// One of them.
+/// A rate of a coordinate that is used as a parameter and declared nowhere.
 pub(super) struct Assumed {
     pub(super) symbol: ExprId,
     /// The first use, and the place in words.

@@ -1,4 +1,4 @@
-//! Why a system is called rheonomic, acatastatic or not conservative.
+//! The reason why a system is called rheonomic, acatastatic or not conservative.
 
 use crate::derive::Subject;
 use crate::names::quoted;

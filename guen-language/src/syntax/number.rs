@@ -15,7 +15,7 @@ pub struct Number {
     pub text: String,
 }
 
-/// Why the text of a literal is not a number of the language.
+/// The reason why the text of a literal is not a number of the language.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum NumberProblem {
     /// A string, a character or the like.

@@ -11,7 +11,7 @@ use crate::steppers::explicit::rk4;
 use crate::system::from_fn;
 use crate::system::linearization::{Liftable, Linearization, seeded};
 
-/// Why there is no discrete model.
+/// The reason why there is no discrete model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DiscreteError {

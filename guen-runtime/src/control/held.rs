@@ -30,7 +30,7 @@ where
         rates
     }
 
-    /// Without the slopes of `F`: where the constraints hold they have no part in it.
+    /// The linearization without the slopes of `F`: where the constraints hold they have no part in it.
     fn linearization(&self, t: R, state: &[R; N], inputs: &[R; M]) -> Linearization<R, N, M> {
         let mut linear = self.0.linearization(t, state, inputs);
         for (_, row) in rows::<R, S, N, K, H>(self.0, t, state) {

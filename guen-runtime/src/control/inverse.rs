@@ -47,7 +47,7 @@ impl<R: Real, const L: usize, const M: usize> MassForm<R, L, M> {
     }
 }
 
-/// Why there are no inputs that produce the accelerations, or none were found.
+/// The reason why there are no inputs that produce the accelerations, or none were found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum InverseDynamicsError {

@@ -77,7 +77,7 @@ pub fn poles<R: Ordered, const N: usize>(a: &[[R; N]; N]) -> Option<[Pole<R>; N]
     Some(poles)
 }
 
-/// Why [`place`] finds no feedback.
+/// The reason why [`place`] finds no feedback.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PlaceError {

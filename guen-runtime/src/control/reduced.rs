@@ -92,7 +92,7 @@ impl PartialEq<&str> for ComponentName {
     }
 }
 
-/// Why there is no reduced basis.
+/// The reason why there is no reduced basis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ReduceError {

@@ -57,7 +57,7 @@ pub struct Observer<R, const N: usize, const P: usize> {
     pub covariance: [[R; N]; N],
 }
 
-/// Why there is no optimal feedback or estimate.
+/// The reason why there is no optimal feedback or estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum RiccatiError {

@@ -7,7 +7,7 @@ use crate::linear_algebra::dense::{Basis, dot, largest, length, transpose};
 use crate::numbers::real::Ordered;
 use crate::system::linearization::Linearizable;
 
-/// Why there is no steady motion.
+/// The reason why there is no steady motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SteadyError {

@@ -3,7 +3,7 @@
 use core::error::Error;
 use core::fmt;
 
-/// Why no [`Table`](crate::Table) goes through some points, or no [`Grid`](crate::Grid) through some values.
+/// The reason why no [`Table`](crate::Table) goes through some points, or no [`Grid`](crate::Grid) through some values.
 ///
 /// ```
 /// use guen_runtime::{Table, TableError};

@@ -68,7 +68,7 @@ impl<const M: usize, const N: usize> Grid<M, N> {
 /// The place of an argument along an axis: the knot in front of it, and the weights of what is known there and at the next one.
 struct Along<R> {
     knot: R,
-    /// Of the value and the slope at the knot, and of those at the next one.
+    /// The weights of the value and the slope at the knot, and of those at the next one.
     weights: [[R; 2]; 2],
 }
 

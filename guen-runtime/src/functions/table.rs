@@ -73,7 +73,7 @@ impl<const N: usize> Table<N> {
         Self::monotone_through(&points)
     }
 
-    /// As [`new`](Self::new), of points whose number the program finds out when it runs: at most `N`.
+    /// The natural cubic spline, as [`new`](Self::new), through points whose number the program finds out when it runs: at most `N`.
     ///
     /// # Errors
     ///
@@ -90,7 +90,7 @@ impl<const N: usize> Table<N> {
         Self::through(points, |x, y| natural(x, |i| y[i]))
     }
 
-    /// As [`monotone`](Self::monotone), of points whose number the program finds out when it runs: at most `N`.
+    /// A monotone cubic curve, as [`monotone`](Self::monotone), through points whose number the program finds out when it runs: at most `N`.
     ///
     /// # Errors
     ///

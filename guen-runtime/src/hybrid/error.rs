@@ -1,4 +1,4 @@
-//! Why a run through modes ended before its time.
+//! The reason why a run through modes ended before its time.
 
 use core::error::Error;
 use core::fmt;
@@ -6,7 +6,7 @@ use core::fmt;
 use crate::hybrid::mode::Mode;
 use crate::steppers::{Cause, Statistics};
 
-/// Why a run through modes could not go on.
+/// The reason why a run through modes could not go on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum HybridCause<const C: usize> {
@@ -139,7 +139,7 @@ pub struct HybridError<const N: usize, const C: usize> {
     pub mode: Mode<C>,
     /// The state at that time.
     pub state: [f64; N],
-    /// Why the run could not go on.
+    /// The reason why the run could not go on.
     pub cause: HybridCause<C>,
     /// The work done until then.
     pub work: Statistics,

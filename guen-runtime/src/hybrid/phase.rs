@@ -7,7 +7,7 @@ use crate::hybrid::element::Element;
 use crate::hybrid::loads;
 use crate::numbers::real::Real;
 
-/// Why there is no impact.
+/// The reason why there is no impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Unsolved {
     /// No impulses satisfy the law, or this implementation does not find them.

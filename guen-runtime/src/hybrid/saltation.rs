@@ -44,7 +44,7 @@ impl<const N: usize> Saltation<N> {
     }
 }
 
-/// Why a motion has no derivative through a transition.
+/// The reason why a motion has no derivative through a transition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NoSaltation {

@@ -49,7 +49,7 @@ impl Default for Known {
     }
 }
 
-/// Why no mode was selected.
+/// The reason why no mode was selected.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Unselected<const C: usize> {
     /// No mode fits.
@@ -217,8 +217,8 @@ where
     found.ok_or(Unselected::Inconsistent)
 }
 
-/// Of two consistent modes the one in which elements go on sticking, where that is the only difference: so with more friction at
-/// rest than in motion; but for those that have just left their cones. Whether it is the first; none where they differ otherwise.
+/// Prefers, of two consistent modes, the one in which elements go on sticking, where that is the only difference: so with more friction
+/// at rest than in motion; but for those that have just left their cones. Whether it is the first; none where they differ otherwise.
 fn preferred<H, const N: usize, const W: usize, const C: usize, const S: usize>(
     known: &[Known; C],
     first: &InMode<H, N, W, C, S>,

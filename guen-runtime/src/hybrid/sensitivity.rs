@@ -23,7 +23,7 @@ pub struct TransitionSensitivity<const N: usize> {
     pub state: [[f64; N]; N],
 }
 
-/// Why the derivatives of a motion through modes could not be computed.
+/// The reason why the derivatives of a motion through modes could not be computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SensitivityError {
@@ -33,7 +33,7 @@ pub enum SensitivityError {
         transition: usize,
         /// The time of the transition.
         t: f64,
-        /// Why there is no derivative.
+        /// The reason why there is no derivative.
         why: NoSaltation,
     },
     /// There is no transition of this position that ends a mode.
@@ -47,7 +47,7 @@ pub enum SensitivityError {
     Integration {
         /// The time that was reached.
         t: f64,
-        /// Why it could not go on.
+        /// The reason why it could not go on.
         cause: Cause,
     },
 }

@@ -26,7 +26,7 @@ where
 {
     /// The last good time, at which the trajectory ends.
     pub time: R,
-    /// Why the simulation could not go on from there.
+    /// The reason why the simulation could not go on from there.
     pub cause: Cause,
     /// The motion up to there.
     pub trajectory: Box<Trajectory<S, N, R, P>>,

@@ -1,9 +1,9 @@
-//! Why constants are refused, with the facts needed to act on it.
+//! The reason why constants are refused, with the facts needed to act on it.
 
 use core::error::Error;
 use core::fmt;
 
-/// Why a set of physical constants was refused. Each variant carries the offending value, as an `f64` for the
+/// The reason why a set of physical constants was refused. Each variant carries the offending value, as an `f64` for the
 /// message.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -63,7 +63,7 @@ pub enum ConstantsError {
     },
 }
 
-/// Why a body is none that could be made.
+/// The reason why a body is none that could be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BodyFault {

@@ -3,7 +3,7 @@
 use core::error::Error;
 use core::fmt;
 
-/// Why no coordinates were found that fulfil the constraints.
+/// The reason why no coordinates were found that fulfil the constraints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum PositionsError {

@@ -302,7 +302,7 @@ impl<S, F, const FULL: usize> Path<'_, S, F, FULL> {
     }
 }
 
-/// Why what a scene left out could not be recovered.
+/// The reason why what a scene left out could not be recovered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RecoveryError {

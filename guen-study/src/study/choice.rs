@@ -74,7 +74,7 @@ impl fmt::Display for Caveat {
     }
 }
 
-/// Why there is no choice.
+/// The reason why there is no choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum NoChoice {
@@ -153,7 +153,7 @@ struct Certain<'a> {
 }
 
 impl StudyReport {
-    /// Why nothing may be concluded from a row, whatever it shows: its error is not certain. Nothing where it is.
+    /// The reason why nothing may be concluded from a row, whatever it shows: its error is not certain. Nothing where it is.
     ///
     /// The marks of the rows are not relied upon: what the report says of its reference counts, so that a report from
     /// a file is judged as a new one.
@@ -277,7 +277,7 @@ impl StudyReport {
         unseen.then_some(Caveat::NotScanned).into_iter().chain(nearby).collect()
     }
 
-    /// Why no row at all is certain.
+    /// The reason why no row at all is certain.
     fn nothing(&self) -> NoChoice {
         let failed = self.reference.as_ref().is_some_and(|reference| reference.error.is_none());
         let none =

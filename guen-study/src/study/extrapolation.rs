@@ -12,7 +12,7 @@ const GROW: f64 = 4.0;
 const SHORTEST_STEP: f64 = 1e-12;
 const MOST_SHORT: u32 = 200;
 
-/// Why a run ended early.
+/// The reason why a run ended early.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Stop {
     /// The step no longer moves the time, or nothing finite was found however short it was.

@@ -183,7 +183,7 @@ pub struct ReferenceReport {
     /// motion in doubles that lands in more places: the stated error. None if one of them failed.
     #[cfg_attr(feature = "serde", serde(with = "crate::exact::option"))]
     pub error: Option<f64>,
-    /// Why there is no reference, or no check of it.
+    /// The reason why there is no reference, or no check of it.
     pub failure: Option<String>,
     /// The seconds that both took.
     #[cfg_attr(feature = "serde", serde(with = "crate::exact"))]

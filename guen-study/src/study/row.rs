@@ -27,7 +27,7 @@ impl Knob {
     }
 }
 
-/// Why a setting has no result.
+/// The reason why a setting has no result.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Failure {
@@ -148,7 +148,7 @@ pub struct Row {
     pub jacobians: f64,
     /// The cost, for one initial state.
     pub cost: Option<Cost>,
-    /// Why there is no result.
+    /// The reason why there is no result.
     pub failure: Option<Failure>,
     /// The Rust code for this setting.
     pub code: String,

@@ -16,7 +16,7 @@ impl Column {
     }
 }
 
-/// Why a motion has no row of numbers, or no further one.
+/// The reason why a motion has no row of numbers, or no further one.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Fault {
     /// The last good time, where one is known.

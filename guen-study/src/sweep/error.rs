@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use super::design::{DesignFault, UnknownAxis, UnknownEntry};
 use crate::error::StudyError;
 
-/// Why a sweep was refused or could not go on. Nothing of what it has finished is lost: a further run into the same folder goes on.
+/// The reason why a sweep was refused or could not go on. Nothing of what it has finished is lost: a further run into the same folder
+/// goes on.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum SweepError {

@@ -107,7 +107,7 @@ impl Sketch {
         format!("{} {}", text(&self.negative), text(&self.positive))
     }
 
-    /// Reads what [`text`](Self::text) wrote.
+    /// Parses the text that [`text`](Self::text) writes.
     pub(super) fn parse(text: &str) -> Option<Self> {
         let read = |text: &str| {
             let mut sizes = Sizes::default();

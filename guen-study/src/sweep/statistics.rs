@@ -304,7 +304,8 @@ impl OfColumn {
         self.sketch.add(x);
     }
 
-    /// In the total order of doubles, in which zeros with and without a sign differ: otherwise the order of motions would show.
+    /// Moves the ends out to `x` in the total order of doubles, in which zeros with and without a sign differ: otherwise the order of
+    /// motions would show.
     #[inline]
     fn widen(&mut self, x: f64) {
         let [low, high] = self.ends.get_or_insert([x, x]);

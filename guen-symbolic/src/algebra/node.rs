@@ -32,7 +32,7 @@ pub enum Node {
     Undefined,
 }
 
-/// Why a power was refused.
+/// The reason why a power was refused.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum PowerError {
     /// The exponent is not a number.

@@ -277,7 +277,7 @@ fn applied(bench: &mut Workbench, matrix: &Matrix, vector: &[ExprId]) -> Vec<Exp
 /// Sums of a matrix times a vector, each computed from one that was found before and the terms that it has beyond it. No two of
 /// these have opposite signs where rows of the matrix grow by one entry each.
 struct PartialSums {
-    /// In the order in which they are computed.
+    /// The sums, in the order in which they are computed.
     steps: Vec<PartialSum>,
 }
 

@@ -1,4 +1,4 @@
-//! Why a derivation ends without equations of motion.
+//! The reason why a derivation ends without equations of motion.
 
 use super::thresholds::COUPLED_COORDINATES;
 use super::{Mechanics, NotQuadratic};
@@ -6,7 +6,7 @@ use crate::algebra::ExprId;
 use crate::geometry::SingularForms;
 use crate::workbench::Workbench;
 
-/// Why a system has no equations of motion.
+/// The reason why a system has no equations of motion.
 #[derive(Clone, Debug)]
 pub enum DerivationError {
     /// The forms are dependent, in these ways.

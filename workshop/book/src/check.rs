@@ -54,7 +54,7 @@ fn collect(folder: &Path, pages: &mut BTreeMap<PathBuf, String>) -> io::Result<(
     Ok(())
 }
 
-/// Why a link leads nowhere, if it does.
+/// The reason why a link leads nowhere, if it does.
 fn fault_of(link: &str, page: &Path, places: &BTreeMap<&PathBuf, BTreeSet<String>>) -> Option<&'static str> {
     let leads_out = |scheme: &str| link.starts_with(scheme);
     if ["http://", "https://", "mailto:", "javascript:", "data:"].into_iter().any(leads_out) {

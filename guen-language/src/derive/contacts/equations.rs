@@ -53,7 +53,7 @@ pub(in crate::derive) struct ContactEquations {
 }
 
 impl FreeMotion {
-    /// Every expression.
+    /// All expressions, to be replaced in place.
     pub(in crate::derive) fn expressions(&mut self) -> impl Iterator<Item = &mut ExprId> {
         let lists = [&mut self.rates, &mut self.biases, &mut self.delassus];
         lists.into_iter().chain(&mut self.responses).flatten()
@@ -70,7 +70,7 @@ impl FreeMotion {
 }
 
 impl ContactFunctions {
-    /// Every expression.
+    /// All expressions, to be replaced in place.
     pub(in crate::derive) fn expressions(&mut self) -> impl Iterator<Item = &mut ExprId> {
         let [when, release] = &mut self.conditions;
         let lists = [

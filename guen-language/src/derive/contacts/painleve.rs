@@ -13,10 +13,10 @@ use guen_symbolic::{
 
 use crate::model::{ContactKind, ContactState, Contacts};
 
-/// For each mode what was proved.
+/// The results of the proofs that reactions have one value, mode by mode.
 #[derive(Clone, Debug, Default)]
 pub struct Painleve {
-    /// For each mode the pairs of a contact that slips and one that touches, for which the proof failed.
+    /// The pairs of a contact that slips and one that touches for which the proof failed, for each mode.
     pub doubtful: Vec<Vec<(usize, usize)>>,
     /// The contacts whose `p` was proved to be positive.
     pub by_sign: Vec<usize>,
@@ -56,7 +56,7 @@ struct Slip {
     sign: Option<i64>,
 }
 
-/// Proves it for each of some modes.
+/// Proves, for each of some modes, that the reactions have one value.
 pub(super) fn prove(
     bench: &mut Workbench,
     contacts: &Contacts<'_>,

@@ -80,7 +80,7 @@ impl Unknowns {
         self.votes.unwrap_or_default().into_iter().filter_map(most).collect()
     }
 
-    /// One that nothing is known of.
+    /// Returns a new dimension of which nothing is known.
     pub(super) fn fresh(&mut self) -> Partial {
         let name = self.found.len();
         self.found.push(self.elected.get(&name).cloned().map(Partial::from));

@@ -76,7 +76,7 @@ pub enum Asked {
     Reaction(String),
 }
 
-/// Why there is no number.
+/// The reason why there is no number.
 pub type Missing = String;
 
 impl<R: Analytic> Meaning<R> {

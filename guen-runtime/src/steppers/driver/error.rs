@@ -1,4 +1,4 @@
-//! Why an integration ended before its time, with the facts needed to act on it.
+//! The reason why an integration ended before its time, with the facts needed to act on it.
 
 use core::error::Error;
 use core::fmt;
@@ -7,7 +7,7 @@ use super::statistics::Statistics;
 use crate::numbers::real::Real;
 use crate::system::positions_error::PositionsError;
 
-/// Why an integration could not go on.
+/// The reason why an integration could not go on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Cause {
@@ -313,7 +313,7 @@ pub struct IntegrationError<R, const N: usize> {
     pub time: R,
     /// The state at that time. It is the initial state, finite or not, if no step succeeded.
     pub state: [R; N],
-    /// Why the integration could not go on from there.
+    /// The reason why the integration could not go on from there.
     pub cause: Cause,
     /// The work done until then.
     pub statistics: Statistics,

@@ -94,7 +94,7 @@ impl<R: Real> Switches<R> {
     /// The time to go to: in a bracket the place where the first function is expected to cross, by regula falsi with the Illinois
     /// rule.
     pub(super) fn goal<const N: usize>(&self, from: &Checkpoint<R, N>, target: R) -> R {
-        /// In turn moved ends after which the bracket is halved.
+        /// The number of times that one end moves in turn after which the bracket is halved.
         const PATIENCE: i32 = 3;
         let Some(past) = &self.past else { return target };
         let length = past.time - from.time;

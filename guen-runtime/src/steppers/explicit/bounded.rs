@@ -136,7 +136,7 @@ struct Known<const N: usize> {
     error: [f64; N],
     /// The way that each entry has gone: `S`.
     way: [f64; N],
-    /// The logarithm of what errors can have grown by.
+    /// The logarithm of the factor by which errors can have grown.
     growth: f64,
     resolved: bool,
 }

@@ -257,7 +257,7 @@ struct Trial<R, const N: usize> {
     ahead: bool,
 }
 
-/// Why a step on trial is none.
+/// The reason why a step on trial is none.
 enum Refused {
     NotFinite,
     Positions(PositionsError),

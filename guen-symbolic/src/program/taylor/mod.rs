@@ -95,7 +95,7 @@ pub struct SeriesProgram {
     pub sums: Vec<[Value; 2]>,
 }
 
-/// Why a program has no Taylor series: a function that is not analytic.
+/// The reason why a program has no Taylor series: a function that is not analytic.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct NotAnalytic {
     /// The call of the function.

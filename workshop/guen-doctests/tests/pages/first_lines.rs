@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 /// Words that begin a riddle: what the item is comes later, or not at all.
-const WEAK: [&str; 18] = [
+const WEAK: [&str; 19] = [
     "What ",
     "The same ",
     "That ",
@@ -17,6 +17,7 @@ const WEAK: [&str; 18] = [
     "They ",
     "Their ",
     "How ",
+    "Why ",
     "Where ",
     "Which ",
     "By ",

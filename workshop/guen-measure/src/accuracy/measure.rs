@@ -17,11 +17,11 @@ use guen_symbolic::{ExprId, Frame, Graph, Operators, Real, SymbolId, equations_b
 /// The largest errors over some states, each as the largest error of a rate divided by the largest rate.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Errors {
-    /// Of the declared system.
+    /// The error of the declared system.
     pub declared: f64,
-    /// Of the program written by hand.
+    /// The error of the program written by hand.
     pub by_hand: f64,
-    /// Of the raw program.
+    /// The error of the raw program.
     pub raw: f64,
 }
 

@@ -64,7 +64,7 @@ impl Knob {
 pub struct Search<F> {
     knob: Knob,
     run: F,
-    /// For each setting its run, if that did not fail.
+    /// The run of each setting, if that did not fail.
     tried: BTreeMap<u32, Option<Run>>,
 }
 
@@ -89,7 +89,7 @@ impl<F: Fn(u32) -> Option<Run>> Search<F> {
         })
     }
 
-    /// For each accuracy, from coarse to fine, the cheapest setting that holds it; none if that takes more than `most`
+    /// Finds for each accuracy, from coarse to fine, the cheapest setting that holds it; none if that takes more than `most`
     /// evaluations.
     pub fn cheapest<const K: usize>(&mut self, accuracies: [f64; K], most: u64) -> [Option<u32>; K] {
         /// Beyond this no tolerance means anything in doubles.

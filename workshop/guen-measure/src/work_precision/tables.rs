@@ -41,7 +41,7 @@ impl Findings {
         self.times.of(choice).map_or(f64::INFINITY, |time| time.median)
     }
 
-    /// For each accuracy all methods, and what their times are of DOP853's and of RK4's.
+    /// Prints for each accuracy all methods, and what their times are of DOP853's and of RK4's.
     pub fn print(&self, accuracies: &[f64]) {
         println!(
             "{}, {}, over {} s; with an apostrophe: the carried form; with two: that in `Fused`\n",

@@ -4,7 +4,7 @@ use guen_symbolic::{ExprId, Function, Graph, MAX_ARGUMENTS, Multivariate, Ration
 
 use super::names::{Name, Scope};
 
-/// Why a line could not be read.
+/// The reason why a line could not be read.
 pub type Unread = String;
 
 /// A formula.

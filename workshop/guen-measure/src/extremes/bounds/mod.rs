@@ -65,7 +65,7 @@ pub struct Found {
     pub entries: [[Ratios; 2]; 2],
     /// States whose rates are no numbers: in none of the ratios.
     pub not_finite: [[usize; 2]; 2],
-    /// Why the constants are refused in single precision, if they are: then there are no ratios for it.
+    /// The reason why the constants are refused in single precision, if they are: then there are no ratios for it.
     pub refused: Option<String>,
     /// Where an entry was worst.
     pub worst: Worst,

@@ -83,7 +83,7 @@ fn distance(part: f64) -> f64 {
     10.0_f64.powf(-12.0 * part)
 }
 
-/// One of these angles.
+/// Draws one of two angles.
 fn either(random: &mut Random, angles: [f64; 2]) -> f64 {
     angles[usize::from(random.bits() & 1 == 1)]
 }
