@@ -1,17 +1,8 @@
-//! The systems of these tests: those of the reference scenes, as their README declares them, and further ones.
+//! The systems of these tests: those of the reference scenes, as their README declares them, and further ones. Three of them are
+//! measured, too, and stand in `guen-benchmarks`.
 
 use guen::mechanical_system;
-
-mechanical_system! {
-    pub system BouncingBall {
-        constants { g = 9.81, e = 4/5 }
-        coordinates { z }
-        parameters { v = dot(z); }
-        kinetic_energy = 1/2*v^2;
-        potential_energy = g*z;
-        contacts { floor: gap = z, restitution = e; }
-    }
-}
+pub use guen_benchmarks::contacts::{BouncingBall, PendulumStop, StickSlip, bouncing_ball, stick_slip};
 
 mechanical_system! {
     pub system BowlingBall {
@@ -55,17 +46,6 @@ mechanical_system! {
 }
 
 mechanical_system! {
-    pub system PendulumStop {
-        constants { l = 1, g = 9.81, e = 3/5, limit = 1/5 }
-        coordinates { theta }
-        parameters { omega = dot(theta); }
-        kinetic_energy = l^2/2*omega^2;
-        potential_energy = -g*l*cos(theta);
-        contacts { stop: gap = theta + limit, restitution = e; }
-    }
-}
-
-mechanical_system! {
     pub system PuckIncline {
         constants { m = 1, g = 9.81, sa = 5/13, ca = 12/13, mu = 5/6 }
         coordinates { x, y, n }
@@ -73,17 +53,6 @@ mechanical_system! {
         gravity = g*vec(sa, 0, -ca);
         parameters { v = dot(vec(x, y, n)); }
         contacts { plane: gap = n, slip = vec(dot(x), dot(y)), friction = mu, restitution = 0; }
-    }
-}
-
-mechanical_system! {
-    pub system StickSlip {
-        constants { m = 1, k = 1, vb = 1/5, mus = 1/10, delta = 3, g = 10 }
-        coordinates { x, z }
-        parameters { u = dot(x); w = dot(z); }
-        kinetic_energy = m/2*(u^2 + w^2);
-        potential_energy = k/2*x^2 + m*g*z;
-        contacts { belt: gap = z, slip = dot(x) - vb, friction = mus/(1 + delta*speed), restitution = 0; }
     }
 }
 

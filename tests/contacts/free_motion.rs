@@ -4,6 +4,7 @@ use guen::Dual;
 use guen::hybrid::{Element, HybridSystem, Kind, Mode as States};
 
 use crate::declared::*;
+use crate::drawn::drawn;
 
 #[test]
 fn a_ball_above_its_floor() {
@@ -67,12 +68,6 @@ fn rows_that_move_by_themselves() {
     let free = belt.free_motion(0.0, &[1.5, 0.0, 0.5, 0.0], &[], &[0.3]);
     assert_eq!((free.row_rates, belt.row_drifts(0.0, &[0.0; 4])), ([0.0, 0.3], [0.0, -0.2]));
     assert_eq!((free.friction, free.stiction), ([0.1 / 1.9], [0.1]));
-}
-
-/// A number in the middle of things, the same on every machine.
-fn drawn(seed: &mut u64) -> f64 {
-    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-    (*seed >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 /// The free motion against the mass matrix and the rows alone: `W` and the rates of the rows by dual numbers, `M^-1` densely. What

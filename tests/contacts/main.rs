@@ -4,6 +4,7 @@ mod components;
 mod conditions;
 mod declared;
 mod directions;
+mod drawn;
 mod ensembles;
 mod free_motion;
 mod in_mode;

@@ -3,12 +3,7 @@
 use guen::Level;
 
 use crate::declared::*;
-
-/// A number in the middle of things, the same on every machine.
-fn drawn(seed: &mut u64) -> f64 {
-    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-    (*seed >> 11) as f64 / (1_u64 << 53) as f64
-}
+use crate::drawn::drawn;
 
 #[test]
 fn the_rolling_wheel_is_that_of_a_user_to_the_operation() {

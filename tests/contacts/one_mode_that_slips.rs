@@ -4,6 +4,8 @@
 use guen::steppers::Rk4;
 use guen::{Level, Simulate, System, mechanical_system};
 
+use crate::drawn::drawn;
+
 mechanical_system! {
     /// A rod on the ground with its tip, as in Painlevé's paradox, whose friction falls with the speed and differs on ice.
     pub system Rod {
@@ -94,12 +96,6 @@ fn are_close(found: &[f64], expected: &[f64]) {
     for (a, b) in found.iter().zip(expected) {
         assert!((a - b).abs() < 1e-12 * (1.0 + b.abs()), "{found:?} {expected:?}");
     }
-}
-
-/// Numbers between zero and one.
-fn drawn(seed: &mut u64) -> f64 {
-    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-    (*seed >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 #[test]

@@ -3,13 +3,8 @@
 use guen::hybrid::{HybridCause, HybridSystem, HybridTrajectory, TransitionKind};
 use guen::prelude::*;
 
+use crate::drawn::drawn;
 use crate::resets::Counter;
-
-/// A number between 0 and 1, the same on every machine.
-fn drawn(seed: &mut u64) -> f64 {
-    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-    (*seed >> 11) as f64 / (1_u64 << 53) as f64
-}
 
 /// Compares the resets of a scene with those of its system, bit by bit, at drawn states: their functions, their new values and the rates.
 fn compare_bits<

@@ -4,6 +4,7 @@ use guen::hybrid::{HybridCause, HybridSystem, TransitionKind};
 use guen::mechanical_system;
 
 use crate::declared::{Feet, HoopOnFloor, feet, hoop_on_floor};
+use crate::drawn::drawn;
 
 mechanical_system! {
     /// A wheel on a plane: nobody asks where it is.
@@ -129,12 +130,6 @@ fn a_mode_that_a_scene_excludes_ends_its_run() {
     let ground = roller::Ground::from(constants).prepare().unwrap().driven(light.into());
     let motion = ground.simulate(&start.into(), 0.0..1.0).unwrap();
     assert!((motion.reactions_at(1.0)[0] - (20.0 * 9.81 - 150.0)).abs() < 1e-9);
-}
-
-/// A number in the middle of things, the same on every machine.
-fn drawn(seed: &mut u64) -> f64 {
-    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-    (*seed >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 fn assert_near<const N: usize>(found: [f64; N], expected: [f64; N]) {

@@ -2,28 +2,13 @@
 
 use guen::Real;
 use guen::prelude::*;
+use guen_benchmarks::systems::{BODYHOOP_TEXT, BodyHoop, body_hoop};
 
 use crate::by_hand::{
     Body, ByHand, Numbers, Vector, apply, by_quaternion, check, column, cross, diagonal, inner, moving, plus,
     product, real, rot_x, rot_z, spin, times, velocity_at,
 };
 use crate::formulas::derive;
-
-macro_rules! body_hoop {
-    ($($consumer:ident)::+) => { $($consumer)::+! {
-        pub system BodyHoop {
-            constants { a > 0, A > 0, C > 0, g = 9.81 }
-            coordinates { theta, psi, phi, xi, eta, zeta }
-            parameters { eta1 = dot(theta); eta2 = dot(psi)*sin(theta); eta3 = dot(psi)*cos(theta) + dot(phi); }
-            let frame = rot_z(psi)*rot_x(theta);
-            bodies { hoop { mass: 1, inertia: diag(A, A, C), center: vec(xi, eta, zeta), orientation: frame*rot_z(phi) } }
-            gravity = vec(0, 0, -g);
-            constraints { rolling: hoop.velocity_at(hoop.center - a*frame.y) = 0; }
-        }
-    } };
-}
-
-body_hoop!(guen::mechanical_system);
 
 mod paper {
     hoop!(guen::mechanical_system);
@@ -83,8 +68,7 @@ impl ByHand for Hand {
 
 #[test]
 fn the_body_derives_the_paper_s_equations() {
-    const BODY: &str = body_hoop!(stringify);
-    derive(BODY, |hoop| {
+    derive(BODYHOOP_TEXT, |hoop| {
         hoop.equation(1, "(A + a^2)*dot(eta1) - A*cot(theta)*eta2^2 + (C + a^2)*eta2*eta3 + a*g*cos(theta)");
         hoop.equation(2, "A*dot(eta2) + A*cot(theta)*eta1*eta2 - C*eta1*eta3");
         hoop.equation(3, "(C + a^2)*dot(eta3) - a^2*eta1*eta2");

@@ -1,8 +1,7 @@
 //! Bodies that could be made, and bodies that could not.
 
 use guen::{BodyFault, ConstantsError};
-
-use crate::hoop::BodyHoop;
+use guen_benchmarks::systems::BodyHoop;
 
 guen::mechanical_system! {
     /// A brick with a weight of its own, on a telescope whose inertia changes and is nobody's to check.

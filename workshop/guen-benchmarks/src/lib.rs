@@ -9,6 +9,7 @@ pub mod arms;
 pub mod bars;
 pub mod by_hand;
 pub mod chains;
+pub mod contacts;
 #[macro_use]
 mod declarations;
 pub mod platform;

@@ -234,7 +234,7 @@ fn the_gallery_shows_what_is_tested() {
     let pages = pages();
     let gallery = pages.iter().find(|page| page.path == "docs/start/gallery.md").expect("the gallery");
     let squeezed = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
-    let shared: String = ["declarations.rs", "rolling.rs"]
+    let shared: String = ["declarations.rs", "rolling.rs", "systems.rs"]
         .map(|file| root().join("workshop/guen-benchmarks/src").join(file))
         .map(|file| std::fs::read_to_string(file).expect("the declarations that programs share"))
         .concat();
