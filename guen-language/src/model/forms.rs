@@ -30,6 +30,13 @@ pub(super) struct RawForm<'a> {
     pub(super) sides: Vec<&'a Expression>,
 }
 
+/// The name, the documentation and the kind of the entry that declares a form.
+struct FormHeading<'a> {
+    name: &'a Name,
+    docs: &'a Docs,
+    kind: FormKind,
+}
+
 /// The suffixes of components.
 const AXES: [&str; 3] = ["_x", "_y", "_z"];
 
@@ -40,9 +47,7 @@ impl Evaluator<'_> {
         let value = self.at(Place::Parameter, &definition.value);
         let sides = vec![&definition.value];
         self.declare_forms(
-            &definition.name,
-            &definition.docs,
-            FormKind::Parameter,
+            FormHeading { name: &definition.name, docs: &definition.docs, kind: FormKind::Parameter },
             value,
             None,
             sides,
@@ -54,7 +59,13 @@ impl Evaluator<'_> {
     pub(super) fn constraint<'a>(&mut self, equation: &'a Equation, forms: &mut Vec<RawForm<'a>>) {
         let value = self.difference(Place::Constraint, equation);
         let sides = vec![&equation.left, &equation.right];
-        self.declare_forms(&equation.name, &equation.docs, FormKind::Constraint, value, None, sides, forms);
+        self.declare_forms(
+            FormHeading { name: &equation.name, docs: &equation.docs, kind: FormKind::Constraint },
+            value,
+            None,
+            sides,
+            forms,
+        );
     }
 
     /// `name: l = r;` in `holonomic`: the form is the rate of `l - r`.
@@ -72,9 +83,7 @@ impl Evaluator<'_> {
         };
         let sides = vec![&equation.left, &equation.right];
         self.declare_forms(
-            &equation.name,
-            &equation.docs,
-            FormKind::Holonomic,
+            FormHeading { name: &equation.name, docs: &equation.docs, kind: FormKind::Holonomic },
             value,
             position,
             sides,
@@ -137,15 +146,9 @@ impl Evaluator<'_> {
         }
     }
 
-    #[allow(
-        clippy::too_many_arguments,
-        reason = "one call for each of the three sections, side by side above"
-    )]
     fn declare_forms<'a>(
         &mut self,
-        name: &'a Name,
-        docs: &'a Docs,
-        kind: FormKind,
+        FormHeading { name, docs, kind }: FormHeading<'a>,
         value: Evaluated,
         position: Option<Vec<ExprId>>,
         sides: Vec<&'a Expression>,
