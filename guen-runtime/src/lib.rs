@@ -64,7 +64,6 @@ pub use functions::in_lanes::EachLane;
 pub use functions::smooth::Smooth;
 pub use functions::table::Table;
 pub use generated::checks;
-pub use generated::cost::Cost;
 pub use generated::derived::Derived;
 pub use generated::entries::{EntryNames, entries, with_entries};
 pub use numbers::choices::{maximum, minimum, select};
@@ -80,6 +79,7 @@ pub use numbers::with_functions::{
 };
 #[cfg(feature = "std")]
 pub use numbers::with_functions::{Std, StdFunctions};
+pub use report::cost::Cost;
 pub use report::{LatexDocument, MarkdownDocument, Report, ReportSection};
 #[cfg(feature = "alloc")]
 pub use simulation::{

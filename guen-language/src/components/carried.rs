@@ -4,7 +4,7 @@ use proc_macro2::{Delimiter, Group, Ident, Punct, Spacing, TokenStream, TokenTre
 use quote::{format_ident, quote};
 
 use super::bundle;
-use crate::syntax::{Component, Visibility};
+use crate::syntax::{Component, Visibility, digest_of};
 
 /// The macro, and its name as visible as the component.
 pub(super) fn items(
@@ -44,14 +44,7 @@ fn hidden_name(component: &Component, tokens: &TokenStream) -> Ident {
     }
     let (line, column) = crate::diagnostics::position_of(component.name.span());
     let text = format!("{line}:{column}:{tokens}");
-    format_ident!("__guen_component_{name}_{}", format!("{:016x}", digest(text.as_bytes())))
-}
-
-/// The digest FNV-1a: the same for the same text, everywhere.
-fn digest(bytes: &[u8]) -> u64 {
-    const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
-    const PRIME: u64 = 0x0100_0000_01b3;
-    bytes.iter().fold(BASIS, |digest, byte| (digest ^ u64::from(*byte)).wrapping_mul(PRIME))
+    format_ident!("__guen_component_{name}_{}", format!("{:016x}", digest_of(&text)))
 }
 
 /// The tokens without `crate = path;`, which says something about the place of the declaration.

@@ -23,6 +23,14 @@ impl Declaration {
     }
 }
 
+/// Returns the digest of a text: the same for the same text, everywhere.
+pub fn digest_of(text: &str) -> u64 {
+    let mut hash = Fnv(Fnv::BASIS);
+    // The hash does not fail.
+    let _ = hash.write_str(text);
+    hash.0
+}
+
 /// The hash FNV-1a of 64 bits. Source: G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, *The FNV Non-Cryptographic Hash Algorithm*.
 struct Fnv(u64);
 

@@ -26,6 +26,7 @@ pub use contact::{
     Assignment, Clause, ClauseWord, Contact, Crossing, HeldContact, InMode, ModeStatement, Reset, SPEED,
     SlipDirection, StatesType, Switch, type_of_states,
 };
+pub use digest::digest_of;
 pub use expression::{AddOperator, Expression, ExpressionKind, Factor, Fold, MultiplyOperator, Order, Term};
 pub use index::{
     Choice, Comparison, Condition, Index, IndexExpression, IndexKind, IndexOperator, Loop, Node, Path, Range,

@@ -2,9 +2,8 @@
 
 use core::ops::Deref;
 
-use crate::generated::checks::rounded;
 use crate::numbers::real::Real;
-use crate::numbers::running_error::RunningError;
+use crate::numbers::running_error::{RunningError, rounded};
 
 /// The values that depend on constants alone, and the functions that the program supplies.
 #[doc(hidden)]

@@ -6,6 +6,8 @@ mod contacts;
 use core::fmt;
 
 pub use crate::generated::condition::condition;
+pub use crate::numbers::choices::largest;
+pub use crate::numbers::running_error::rounded;
 use crate::{Ordered, Real, RunningError};
 pub use constants::{
     Bound, check_constants, check_definite, check_entries, check_finite, check_fixed, check_hoisted,
@@ -105,27 +107,6 @@ pub fn furthest<R: Real, const N: usize>(differences: &[RunningError<R>; N]) -> 
         &differences
             .map(|difference| difference.value.abs().where_above(R::zero(), difference.left(), R::zero())),
     )
-}
-
-/// Values that were rounded once.
-///
-/// ```
-/// use guen_runtime::{RunningError, checks::rounded};
-/// assert_eq!(rounded(&[1.5, -2.0])[1], RunningError { value: -2.0, error: 2.0 });
-/// ```
-#[inline(always)]
-pub fn rounded<R: Real, const N: usize>(values: &[R; N]) -> [RunningError<R>; N] {
-    let mut rounded = [RunningError::exact(R::zero()); N];
-    // A loop where the instructions of lanes are at hand: `map` is a call for each entry.
-    R::vectorize(
-        #[inline(always)]
-        || {
-            for (rounded, value) in rounded.iter_mut().zip(values) {
-                *rounded = RunningError { value: *value, error: value.abs() };
-            }
-        },
-    );
-    rounded
 }
 
 /// A symmetric matrix from its lower triangle, row by row, at the head of a list that may go on; zeros where it ends before.
@@ -251,22 +232,4 @@ pub fn drift<R: Real, const K: usize>(values: &[R; K], carried: &[R]) -> R {
         *apart = (*w - *f) / (R::one() + f.abs());
     }
     largest(&apart)
-}
-
-/// The largest absolute value, as a real without an order can have it: through `f64` for the comparison, of lanes in every
-/// lane by itself. Zero for no values, not finite if one of them is not.
-///
-/// ```
-/// assert_eq!(guen_runtime::checks::largest(&[1.0, -3.0, 2.0]), 3.0);
-/// ```
-#[inline(always)]
-pub fn largest<R: Real>(values: &[R]) -> R {
-    let (mut most, mut rest) = (R::zero(), R::zero());
-    for value in values {
-        let size = value.abs();
-        most = size.where_above(most, size, most);
-        // Zero, unless it is not finite: what is compared with NaN would be taken for larger.
-        rest += size * R::zero();
-    }
-    most + rest
 }

@@ -3,7 +3,6 @@
 
 pub mod checks;
 mod condition;
-pub(crate) mod cost;
 pub(crate) mod derived;
 mod emitted;
 pub(crate) mod entries;

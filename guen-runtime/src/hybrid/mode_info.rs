@@ -1,6 +1,6 @@
 //! The facts about a mode that are known while a system is compiled.
 
-use crate::generated::cost::Cost;
+use crate::report::cost::Cost;
 
 /// A mode with what was derived of it.
 ///

@@ -57,6 +57,24 @@ pub(crate) fn most<R: Real>(x: R) -> f64 {
     most.get()
 }
 
+/// The largest absolute value, as a real without an order can have it: through `f64` for the comparison, of lanes in every
+/// lane by itself. Zero for no values, not finite if one of them is not.
+///
+/// ```
+/// assert_eq!(guen_runtime::checks::largest(&[1.0, -3.0, 2.0]), 3.0);
+/// ```
+#[inline(always)]
+pub fn largest<R: Real>(values: &[R]) -> R {
+    let (mut most, mut rest) = (R::zero(), R::zero());
+    for value in values {
+        let size = value.abs();
+        most = size.where_above(most, size, most);
+        // Zero, unless it is not finite: what is compared with NaN would be taken for larger.
+        rest += size * R::zero();
+    }
+    most + rest
+}
+
 #[cfg(test)]
 mod tests {
     use super::most;

@@ -377,6 +377,27 @@ impl<R: Real> Real for RunningError<R> {
     }
 }
 
+/// Values that were rounded once.
+///
+/// ```
+/// use guen_runtime::{RunningError, checks::rounded};
+/// assert_eq!(rounded(&[1.5, -2.0])[1], RunningError { value: -2.0, error: 2.0 });
+/// ```
+#[inline(always)]
+pub fn rounded<R: Real, const N: usize>(values: &[R; N]) -> [RunningError<R>; N] {
+    let mut rounded = [RunningError::exact(R::zero()); N];
+    // A loop where the instructions of lanes are at hand: `map` is a call for each entry.
+    R::vectorize(
+        #[inline(always)]
+        || {
+            for (rounded, value) in rounded.iter_mut().zip(values) {
+                *rounded = RunningError { value: *value, error: value.abs() };
+            }
+        },
+    );
+    rounded
+}
+
 #[cfg(test)]
 mod tests {
     use super::RunningError;

@@ -1,5 +1,6 @@
-//! The derivation, as constants of text, and written as text, Markdown or LaTeX.
+//! The derivation, as constants of text, and written as text, Markdown or LaTeX; the operations that a program takes.
 
+pub(crate) mod cost;
 mod latex;
 mod markdown;
 

@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use crate::generated::cost::Cost;
 use crate::numbers::real::Real;
+use crate::report::cost::Cost;
 
 /// A level of detail of a system with `FULL` variables: the system itself, or a scene that keeps `N` of them.
 ///

@@ -361,7 +361,7 @@ fn distance<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> f64 {
 }
 
 fn largest<R: Real>(values: &[R]) -> f64 {
-    crate::generated::checks::largest(values).to_f64()
+    crate::numbers::choices::largest(values).to_f64()
 }
 
 /// A system whose coordinates are put back onto its constraints after every step: see [`projected`].

@@ -1,8 +1,8 @@
 //! The classical method of order four, with a fixed step.
 
-use crate::generated::cost::Cost;
 use crate::numbers::lanes::Lanes;
 use crate::numbers::real::Real;
+use crate::report::cost::Cost;
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::run::{Checkpoint, Method};
