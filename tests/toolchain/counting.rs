@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use guen::{Cost, Lift, Ordered, Real};
+use guen::{Cost, Lift, Real};
 
 thread_local! {
     static COUNT: Cell<Cost> = const { Cell::new(Cost::ZERO) };
@@ -61,8 +61,6 @@ impl Lift<Counted> for Counted {
         base
     }
 }
-
-impl Ordered for Counted {}
 
 macro_rules! calls {
     ($field:ident: $($method:ident)*) => {

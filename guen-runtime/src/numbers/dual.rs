@@ -179,8 +179,6 @@ impl<R: Ordered, const N: usize> PartialOrd for Dual<R, N> {
     }
 }
 
-impl<R: Ordered, const N: usize> Ordered for Dual<R, N> {}
-
 impl<R: Real, const N: usize> Real for Dual<R, N> {
     #[inline]
     fn from_ratio(num: i64, den: i64) -> Self {

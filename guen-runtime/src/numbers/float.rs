@@ -6,7 +6,7 @@
 use crate::numbers::elementary;
 use crate::numbers::lanes::Two;
 use crate::numbers::lanes::register::Vector;
-use crate::numbers::real::{Ordered, Real};
+use crate::numbers::real::Real;
 
 /// `|num| / |den|` as `quotient * 2^-shift`, the last bit of the quotient set if a remainder was dropped.
 ///
@@ -217,8 +217,6 @@ impl Real for f32 {
     }
 }
 
-impl Ordered for f32 {}
-impl Ordered for f64 {}
 
 /// The real root of order `q`, by a power and one Newton step `y - (y - |x| / y^(q-1)) / q`, which removes the
 /// rounding of `1/q`.

@@ -334,8 +334,11 @@ pub trait Real:
     fn is_finite(self) -> bool;
 }
 
-/// A real with an order, as adaptive step control needs it. Lanes are no `Ordered`: each has its own error.
+/// A real with an order, as adaptive step control needs it: every real that is `PartialOrd`. Lanes are not, since each has its own
+/// error.
 pub trait Ordered: Real + PartialOrd {}
+
+impl<R: Real + PartialOrd> Ordered for R {}
 
 /// `value * 2^exponent` in factors of at most `2^60`, which every real represents exactly.
 fn scaled<R: Real>(value: R, exponent: i32) -> R {

@@ -9,7 +9,7 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 
 use crate::numbers::lanes::{Lanes, Mask};
 use crate::numbers::lift::Lift;
-use crate::numbers::real::{Ordered, Real};
+use crate::numbers::real::Real;
 
 /// A number with the platform's elementary functions, those of `std`: 0.5 to 1 ulp with most C libraries, but other
 /// bits on other platforms and in other versions of them. Needs the feature `std`.
@@ -324,8 +324,6 @@ impl<R: Real, F: Functions<R>> Neg for WithFunctions<R, F> {
         Self::new(-self.value)
     }
 }
-
-impl<R: Ordered, F: Functions<R>> Ordered for WithFunctions<R, F> {}
 
 impl<L: Lanes, F: Functions<L>> Lift<f64> for WithFunctions<L, F> {
     #[inline(always)]

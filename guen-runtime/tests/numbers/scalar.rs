@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 
 use guen_runtime::steppers::{Dop853, Rk4};
-use guen_runtime::{Lift, Ordered, Real, from_fn};
+use guen_runtime::{Lift, Real, from_fn};
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 struct Plain(f64);
@@ -49,8 +49,6 @@ impl Real for Plain {
     }
     forward!(asin acos atan sinh cosh tanh exp ln sqrt abs sign);
 }
-
-impl Ordered for Plain {}
 
 impl Lift<Plain> for Plain {
     fn lift(base: Plain) -> Plain {

@@ -61,8 +61,6 @@ impl Real for Long {
     not_needed!(asin acos atan sinh cosh tanh exp ln sign);
 }
 
-impl Ordered for Long {}
-
 /// `x' = x cos t`, `y' = -y x` with `x = exp(sin t)`: not linear, and smooth. `y` has no closed form.
 struct Driven;
 

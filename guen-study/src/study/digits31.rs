@@ -3,7 +3,7 @@
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 use std::sync::OnceLock;
 
-use guen_runtime::{Lift, Ordered, Real};
+use guen_runtime::{Lift, Real};
 
 use super::digits71::Digits71;
 
@@ -200,8 +200,6 @@ impl Lift<Digits31> for Digits31 {
         base
     }
 }
-
-impl Ordered for Digits31 {}
 
 impl Real for Digits31 {
     fn from_ratio(num: i64, den: i64) -> Self {

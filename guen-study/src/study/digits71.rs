@@ -3,7 +3,7 @@
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use f256::f256;
-use guen_runtime::{Lift, Ordered, Real};
+use guen_runtime::{Lift, Real};
 
 /// A real of 237 bits, 71 decimal digits: the arithmetic and the functions of the crate `f256`, and those made of them
 /// that it has not.
@@ -68,8 +68,6 @@ impl Lift<Digits71> for Digits71 {
         base
     }
 }
-
-impl Ordered for Digits71 {}
 
 impl Digits71 {
     fn half_of(value: f256) -> Self {
