@@ -26,17 +26,17 @@ pub(crate) enum Damage {
 type Position = (usize, usize);
 
 /// The place of a fault.
-enum Place {
+enum FaultPlace {
     /// A line and column between the first token of the declaration and the last.
     Position(Position),
     /// A token from the arguments of another macro: the debug text of its span, because spans cannot be compared.
     Token(String),
 }
 
-impl Place {
+impl FaultPlace {
     /// Whether one of some tokens is at the place.
     fn is_among(&self, tokens: &[TokenTree]) -> bool {
-        let Place::Token(text) = self else { return true };
+        let FaultPlace::Token(text) = self else { return true };
         let mut is_there = false;
         each(tokens, &mut |token| is_there |= places(token).contains(text));
         is_there
@@ -136,8 +136,8 @@ impl Damaged {
         };
         for fault in faults {
             let place = match damaged.is_here(fault.span()) {
-                true => Place::Position(position_of(fault.span())),
-                false => Place::Token(format!("{:?}", fault.span())),
+                true => FaultPlace::Position(position_of(fault.span())),
+                false => FaultPlace::Token(format!("{:?}", fault.span())),
             };
             if !place.is_among(tokens) {
                 damaged.is_damaged_elsewhere = true;
@@ -172,12 +172,12 @@ impl Damaged {
         }
     }
 
-    fn add(&mut self, tokens: &[TokenTree], at: &Place, depth: usize) {
+    fn add(&mut self, tokens: &[TokenTree], at: &FaultPlace, depth: usize) {
         let end = (usize::MAX, 0);
         let statements = statements(tokens, end);
         let holds = |statement: &&Statement<'_>| match at {
-            Place::Position(at) => statement.tokens.first().is_some_and(|token| start(token) <= *at),
-            Place::Token(_) => at.is_among(statement.tokens),
+            FaultPlace::Position(at) => statement.tokens.first().is_some_and(|token| start(token) <= *at),
+            FaultPlace::Token(_) => at.is_among(statement.tokens),
         };
         let Some(statement) = statements.iter().rev().find(holds).or(statements.first()) else {
             self.damage = Damage::Core;
@@ -208,10 +208,10 @@ impl Damaged {
             _ => {}
         }
         let is_inside = |group: &&Group| match at {
-            Place::Position(at) => {
+            FaultPlace::Position(at) => {
                 position_of(group.span_open()) < *at && *at < position_of(group.span_close())
             }
-            Place::Token(_) => at.is_among(&group.stream().into_iter().collect::<Vec<TokenTree>>()),
+            FaultPlace::Token(_) => at.is_among(&group.stream().into_iter().collect::<Vec<TokenTree>>()),
         };
         let inside = |group: &&Group| group.delimiter() == Delimiter::Brace && is_inside(group);
         let groups = statement.tokens.iter().filter_map(|token| match token {
@@ -243,7 +243,7 @@ impl Damaged {
         };
         if let Some(first) = tokens.first() {
             self.statements.push((start(first), end));
-            if matches!(at, Place::Token(_)) {
+            if matches!(at, FaultPlace::Token(_)) {
                 each(tokens, &mut |token| self.tokens.extend(places(token)));
             }
             words(tokens, &mut self.names);

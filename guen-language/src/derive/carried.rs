@@ -5,7 +5,7 @@ use guen_symbolic::{Carried, CarriedFunction, Contracted, ExprId, NotCarried, Pr
 use super::domain::written;
 use super::function;
 use super::jacobians::Jacobians;
-use super::level::Level;
+use super::level::DerivedLevel;
 use super::programs::extend;
 use super::selection::Selection;
 use crate::diagnostics::{Fault, Faults};
@@ -20,11 +20,11 @@ const STATE_COST: u64 = 6;
 /// asks for it.
 pub(super) fn derive(
     model: &mut Model<'_>,
-    level: &Level,
+    level: &DerivedLevel,
     lists: &[Vec<ExprId>],
     word: &Name,
     faults: &mut Faults,
-) -> Option<Box<Level>> {
+) -> Option<Box<DerivedLevel>> {
     if let Some(function) = model.functions.first() {
         let text = "a system with functions that the program supplies has no carried form";
         let fault = Fault::new(word.span(), text).note(format!("`{}` is one", function.name));
@@ -68,7 +68,7 @@ pub(super) fn derive(
         carried: carried.functions,
         ..Selection::default()
     };
-    Some(Box::new(Level {
+    Some(Box::new(DerivedLevel {
         selection,
         derivation: level.derivation.clone(),
         brackets: level.brackets.clone(),

@@ -9,7 +9,7 @@ use guen_symbolic::{
 
 use super::domain::{Singularity, constant_pivots, domain, reason, written};
 use super::function;
-use super::level::Level;
+use super::level::DerivedLevel;
 use super::parts::Functions;
 use super::programs::{extend, programs};
 use super::selection::Selection;
@@ -25,7 +25,7 @@ use crate::model::{FixedConstant, Model};
 /// scene fixes. What it divides by and the scene's own does not is added to the functions that must not vanish.
 pub(super) fn cheapest(
     model: &mut Model<'_>,
-    (whole, derivation): (&Level, &Rc<Derivation>),
+    (whole, derivation): (&DerivedLevel, &Rc<Derivation>),
     selection: &Selection,
     fixes: &[FixedConstant<'_>],
     mut lists: Vec<Vec<ExprId>>,
@@ -79,7 +79,7 @@ pub(super) fn cheapest(
 /// where one may be zero everywhere.
 fn further_divisors(
     model: &mut Model<'_>,
-    whole: &Level,
+    whole: &DerivedLevel,
     derivation: &Derivation,
     values: &[(ExprId, ExprId)],
 ) -> Option<Vec<(ExprId, String)>> {
@@ -123,7 +123,7 @@ fn further_divisors(
 /// reads and does not depend on is a number at which it has the values of the scene's rates.
 fn at_values(
     model: &mut Model<'_>,
-    (whole, derivation): (&Level, &Derivation),
+    (whole, derivation): (&DerivedLevel, &Derivation),
     selection: &Selection,
     values: &[(ExprId, ExprId)],
     (rates, functions): (&[ExprId], &mut Functions),

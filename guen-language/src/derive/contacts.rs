@@ -18,7 +18,7 @@ pub use painleve::Painleve;
 pub(super) use scene::SceneContacts;
 
 use equations::{ContactFunctions, FreeMotion};
-use programs::{Level, programs};
+use programs::{LevelContacts, programs};
 
 use super::branches::Branch;
 use crate::diagnostics::Faults;
@@ -66,7 +66,7 @@ pub(super) fn derive(
     let derived = equations::derive(model, &contacts, None, faults).and_then(|equations| {
         let switches: Vec<usize> = (0..contacts.switches.len()).collect();
         let name = model.declaration.name.span();
-        let level = Level {
+        let level = LevelContacts {
             modes: &contacts.modes,
             switches: &switches,
             motions: &equations.motions,

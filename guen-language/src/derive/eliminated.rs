@@ -8,7 +8,7 @@ use guen_symbolic::{Contracted, Dependence, Derivation, ExprId, Flow, Operation,
 
 use super::contacts::ContactFacts;
 use super::domain::{CHART, constant_pivots, domain};
-use super::level::Level;
+use super::level::DerivedLevel;
 use super::one_mode;
 use super::programs::{extend, programs};
 use super::readable::polish;
@@ -22,7 +22,7 @@ use crate::syntax::{Declaration, Name, Scene};
 const MAX_ELIMINATED: usize = 4;
 
 /// Adds the rates of the modes of scenes with few modes, without switches, and with no constants fixed.
-pub(super) fn add(model: &mut Model<'_>, system: &Level, scenes: &mut [Level]) {
+pub(super) fn add(model: &mut Model<'_>, system: &DerivedLevel, scenes: &mut [DerivedLevel]) {
     let Some(contacts) = model.contacts.take() else { return };
     let entries = std::mem::take(&mut model.scenes);
     let is_plain = model.functions.is_empty() && !model.declaration.is_outline;
@@ -66,7 +66,7 @@ fn is_held(contacts: &Contacts<'_>, mode: &[usize]) -> bool {
 /// The program of the rates of what a scene keeps in a mode; `None` where it needs something else, or divides by what the system does not.
 fn rates(
     model: &mut Model<'_>,
-    system: &Level,
+    system: &DerivedLevel,
     (contacts, facts): (&Contacts<'_>, &ContactFacts),
     (entry, mode, tracks): (&SceneEntry<'_>, &[usize], Vec<Name>),
     selection: &Selection,
@@ -137,7 +137,12 @@ fn given(
 
 /// Whether the velocities of the mode are a chart wherever those of the system are. Its mass matrix is singular where that of the system is, or the
 /// matrix of the reactions: there the common program divides by zero, too.
-fn divides_by_known(model: &Model<'_>, system: &Level, own: &Model<'_>, derivation: &Derivation) -> bool {
+fn divides_by_known(
+    model: &Model<'_>,
+    system: &DerivedLevel,
+    own: &Model<'_>,
+    derivation: &Derivation,
+) -> bool {
     let texts = |model: &Model<'_>, derivation: &Derivation| {
         let functions = domain(model, derivation, &Contracted::default()).into_iter();
         functions.filter(|function| function.words == CHART).map(|function| function.text).collect()

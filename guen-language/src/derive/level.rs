@@ -18,15 +18,15 @@ pub struct Derived<'a> {
     /// The model.
     pub model: Model<'a>,
     /// The system itself.
-    pub system: Level,
+    pub system: DerivedLevel,
     /// The scenes, in order.
-    pub scenes: Vec<Level>,
+    pub scenes: Vec<DerivedLevel>,
     /// The scenes in a single mode of contacts, each by its place among the scenes and as the only scene of a system of its own.
     pub in_modes: Vec<(usize, Derived<'a>)>,
 }
 
 /// A level of detail: the system itself, or a scene.
-pub struct Level {
+pub struct DerivedLevel {
     /// The parts of the model that the level has.
     pub selection: Selection,
     /// The derivation, with the constants that a scene fixes at their values.
@@ -72,10 +72,10 @@ pub struct Level {
     /// The facts about contacts, of a system that has some.
     pub contacts: Option<ContactFacts>,
     /// The level with its elementary functions as states, if that form is provided.
-    pub carried: Option<Box<Level>>,
+    pub carried: Option<Box<DerivedLevel>>,
 }
 
-impl Level {
+impl DerivedLevel {
     /// The program of a function, if it computes anything.
     pub fn program(&self, name: &str) -> Option<&FunctionProgram> {
         self.programs.functions.iter().find(|function| function.name == name)
@@ -95,7 +95,7 @@ pub(crate) struct Subject<'d, 'a> {
     /// The model.
     pub(crate) model: &'d Model<'a>,
     /// The level.
-    pub(crate) level: &'d Level,
+    pub(crate) level: &'d DerivedLevel,
     /// The model of the system that the level belongs to: another one of a scene in a single mode of contacts.
     pub(crate) whole: &'d Model<'a>,
 }

@@ -6,7 +6,7 @@ use super::programs::{extend, programs};
 use super::{formulas, function};
 use crate::diagnostics::collect;
 use crate::model::{self, Model};
-use crate::syntax::{Bound, BoundKind, Item};
+use crate::syntax::{BoundKind, Item, WrittenBound};
 
 /// The bounds that the declaration lacks and that would save operations.
 pub struct MissingBounds {
@@ -54,7 +54,7 @@ fn with(model: &Model<'_>, constants: &[String]) -> Option<u32> {
     for item in &mut declaration.items {
         let Item::Constants(section) = item else { continue };
         for constant in section.entries.iter_mut().filter(|c| constants.contains(&c.name.text)) {
-            constant.bound = Some(Bound { kind: BoundKind::Nonzero, span: constant.name.span() });
+            constant.bound = Some(WrittenBound { kind: BoundKind::Nonzero, span: constant.name.span() });
         }
     }
     let (found, report) = collect(|faults| {

@@ -53,7 +53,7 @@ pub(crate) use control::{has_covector, known_combinations};
 pub use facts::SceneFacts;
 pub use jacobians::Jacobians;
 pub(crate) use level::Subject;
-pub use level::{Derived, Level, Series};
+pub use level::{Derived, DerivedLevel, Series};
 pub use missing_bounds::MissingBounds;
 pub use selection::{Held, Selection, StateIndex, StatePart};
 
@@ -95,7 +95,7 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
     let mut scenes = scene::derive(&mut model, &system, equations, faults);
     eliminated::add(&mut model, &system, &mut scenes);
     let in_modes = one_mode::derive(&mut model, &system, faults);
-    let levels: Vec<&Level> = std::iter::once(&system).chain(&scenes).collect();
+    let levels: Vec<&DerivedLevel> = std::iter::once(&system).chain(&scenes).collect();
     supplied::check(&model, &levels, faults);
     (faults.count() == before).then_some(Derived { model, system, scenes, in_modes })
 }
@@ -106,7 +106,7 @@ fn whole(
     derivation: Rc<Derivation>,
     brackets: Rc<Vec<Commutator>>,
     faults: &mut Faults,
-) -> Level {
+) -> DerivedLevel {
     let (_, size) = model.sizes();
     let l = model.mechanics.forms.degrees;
     let forms = 0..model.forms.len();
@@ -152,7 +152,7 @@ fn whole(
     let name = model.declaration.name.span();
     let switches = switches::add(model, &rates, &shown, &mut programs, (name, &mut *faults));
     let energy = derivation.energies.integral;
-    let mut level = Level {
+    let mut level = DerivedLevel {
         selection,
         derivation,
         brackets,

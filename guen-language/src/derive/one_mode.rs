@@ -11,7 +11,7 @@ pub(super) use written::name_of;
 use guen_symbolic::{ExprId, Substitution, SymbolId, chosen_rates, independent_rows};
 
 use super::contacts::ContactFacts;
-use super::level::{Derived, Level};
+use super::level::{Derived, DerivedLevel};
 use super::selection::StatePart;
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{self, ContactState, Contacts, Model, SceneEntry, nominal};
@@ -33,7 +33,7 @@ pub(super) struct Part {
 /// Derives the scenes that have one mode, each as a scene of a system of its own.
 pub(super) fn derive<'a>(
     model: &mut Model<'a>,
-    system: &Level,
+    system: &DerivedLevel,
     faults: &mut Faults,
 ) -> Vec<(usize, Derived<'a>)> {
     let scenes = std::mem::take(&mut model.scenes);

@@ -14,7 +14,7 @@ use super::facts::SceneFacts;
 use super::fixed::{self, Holding};
 use super::jacobians::Jacobians;
 use super::kept::{Kept, closed};
-use super::level::Level;
+use super::level::DerivedLevel;
 use super::manifold::{Replacement, quaternions};
 use super::parts::{Functions, View, parts};
 use super::readable::{polish, shown};
@@ -34,10 +34,10 @@ struct Shared {
 /// Derives every scene but those in a single mode of contacts without resets; those with faults are reported and left out.
 pub(super) fn derive(
     model: &mut Model<'_>,
-    system: &Level,
+    system: &DerivedLevel,
     equations: Option<Rc<ContactEquations>>,
     faults: &mut Faults,
-) -> Vec<Level> {
+) -> Vec<DerivedLevel> {
     let contacts = model.contacts.take();
     let mut scenes = std::mem::take(&mut model.scenes);
     let (derivation, brackets) = (system.derivation.clone(), system.brackets.clone());
@@ -121,12 +121,12 @@ pub(super) fn derive(
 
 fn level(
     model: &mut Model<'_>,
-    system: &Level,
+    system: &DerivedLevel,
     (derivation, brackets): (Rc<Derivation>, Rc<Vec<Commutator>>),
     mut contacts: Option<SceneContacts<'_, '_>>,
     (index, scene): (usize, &SceneEntry<'_>),
     faults: &mut Faults,
-) -> Option<Level> {
+) -> Option<DerivedLevel> {
     let (n, size) = model.sizes();
     let lists = formulas::rates(&derivation);
     let first = derivation.formulations[0].rates.clone();
@@ -288,7 +288,7 @@ fn level(
         fixes: fixes.collect(),
         is_part,
     };
-    let mut level = Level {
+    let mut level = DerivedLevel {
         selection,
         derivation,
         brackets,

@@ -2,7 +2,7 @@
 
 use guen_symbolic::{Multivariate, Operation, Programs};
 
-use super::{Level, function};
+use super::{DerivedLevel, function};
 use crate::diagnostics::{Fault, Faults};
 use crate::model::Model;
 use crate::syntax::Name;
@@ -41,7 +41,7 @@ pub(super) fn check(
     }
 }
 
-impl Level {
+impl DerivedLevel {
     /// Whether its text of C has steppers: it does not lead states back onto constraints of positions after steps.
     pub fn steps_in_c(&self) -> bool {
         self.selection.holonomic.is_empty()

@@ -13,7 +13,7 @@ use super::parts::{self, Modules};
 use super::text::tokens;
 use super::{documentation, integrated, limits, motion, physical, with_scalar};
 use crate::derive::Subject;
-use crate::report::Report;
+use crate::report::ReportLines;
 use crate::syntax::{BoundKind, Expression, Item, Name};
 
 /// A field of the struct of constants.
@@ -64,7 +64,7 @@ fn fields(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<Field> {
     constants.chain(held).collect()
 }
 
-pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report) -> TokenStream {
+pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &ReportLines) -> TokenStream {
     let (system, declared) = (&layout.system, &layout.declared);
     let fields = fields(subject, layout);
     let real = format_ident!("{}", if system == declared { REAL } else { "Scalar" });

@@ -7,7 +7,7 @@ use quote::quote;
 
 use super::text::tokens;
 
-use crate::report::{Report, Section};
+use crate::report::{ReportLines, Section};
 use crate::syntax::Docs;
 
 /// The user's documentation of an entry, or a sentence in its place; with its unit, if it has one.
@@ -25,10 +25,10 @@ pub(super) fn entry(docs: &Docs, fallback: &str, unit: Option<&String>) -> Token
 }
 
 /// The struct with its documentation, the user's words and then everything that was derived, and `REPORT` and `LATEX`.
-pub(super) fn reported(report: &Report, docs: &Docs, is_whole: bool, item: &TokenStream) -> TokenStream {
+pub(super) fn reported(report: &ReportLines, docs: &Docs, is_whole: bool, item: &TokenStream) -> TokenStream {
     let values = &docs.values;
     let blank = (!values.is_empty()).then(|| quote!(#[doc = ""]));
-    let Report { name, summary, sections } = report;
+    let ReportLines { name, summary, sections } = report;
     let (mut all, mut formulas) = (String::new(), String::new());
     for (i, Section { title, text, latex }) in sections.iter().enumerate() {
         let _ = write!(all, "{title:?}{}{}", list(text), list(latex));
@@ -50,7 +50,7 @@ fn list(lines: &[String]) -> String {
 }
 
 /// The documentation of the module.
-pub(super) fn module(report: &Report, system: &Ident, is_whole: bool) -> TokenStream {
+pub(super) fn module(report: &ReportLines, system: &Ident, is_whole: bool) -> TokenStream {
     let what = if is_whole {
         format!("What belongs to the system [`{system}`]: its state, operators, brackets and classification.")
     } else {

@@ -9,7 +9,7 @@ use super::code::{Loads, Parts, SUPPLIED, body};
 use super::layout::Layout;
 use super::text::tokens;
 use super::unpacked::indexed;
-use crate::derive::{Level, Subject, function};
+use crate::derive::{DerivedLevel, Subject, function};
 
 /// The places of the values of symbols, in the arrays that a function takes.
 pub(super) struct Places {
@@ -141,7 +141,7 @@ pub(super) fn signature(name: &str) -> Signature {
 
 /// The modules: `prepare` and every function, generic over the real.
 pub(super) fn modules(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let Level { programs, placed, series, .. } = subject.level;
+    let DerivedLevel { programs, placed, series, .. } = subject.level;
     let places = Places::new(subject, false);
     let series = series.as_ref().map(|series| super::series::functions(series, &places, layout));
     let mut text = module("program", programs, &series.unwrap_or_default(), subject, layout);

@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 
 use super::fields::Fields;
 use super::supplied::Supplied;
-use crate::derive::{Level, StateIndex, StatePart, Subject};
+use crate::derive::{DerivedLevel, StateIndex, StatePart, Subject};
 use crate::model::{FormEntry, Model};
 use crate::names::RATE_SUFFIX;
 use crate::syntax::{Declaration, Name};
@@ -125,7 +125,7 @@ pub(super) fn given_alone(layout: &Layout) -> TokenStream {
 
 /// The constants of a level that follow others, by place, each behind those that its formula reads. In a scene one that
 /// another is fixed by is not among them if it would follow itself.
-pub(super) fn derived(model: &Model<'_>, level: &Level) -> Vec<usize> {
+pub(super) fn derived(model: &Model<'_>, level: &DerivedLevel) -> Vec<usize> {
     let given = &level.selection.constants;
     let mut left: Vec<usize> = (0..given.len()).filter(|i| model.constants[given[*i]].is_derived).collect();
     let mut found = Vec::new();
@@ -145,7 +145,7 @@ pub(super) fn derived(model: &Model<'_>, level: &Level) -> Vec<usize> {
 }
 
 /// The constants of a level that an expression reads, those that a scene fixes at their values.
-fn reads(model: &Model<'_>, level: &Level, e: ExprId, read: &mut Vec<usize>) {
+fn reads(model: &Model<'_>, level: &DerivedLevel, e: ExprId, read: &mut Vec<usize>) {
     let graph = &model.bench.graph;
     for symbol in graph.symbols_in(&[e]) {
         let is_it = |c: usize| graph.as_symbol(model.constants[c].symbol) == Some(symbol);

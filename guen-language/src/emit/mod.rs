@@ -45,7 +45,7 @@ use quote::quote;
 
 use crate::derive::{Derived, Subject};
 use crate::names::module_name;
-use crate::report::Report;
+use crate::report::ReportLines;
 pub(crate) use components::component;
 use layout::{Layout, facade};
 
@@ -117,7 +117,7 @@ fn module(
         quote!(use self::#system as #alias;)
     });
     let module = module_name(system, if layout.is_whole { "system" } else { "scene" });
-    let report = if is_outline { Report::stand_in(system) } else { Report::new(subject) };
+    let report = if is_outline { ReportLines::stand_in(system) } else { ReportLines::new(subject) };
     let parts = [
         constants::items(subject, &layout, &report),
         records::items(subject, &layout),

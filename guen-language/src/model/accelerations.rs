@@ -8,7 +8,7 @@ use guen_symbolic::{ExprId, Flow, Role, Roles};
 use proc_macro2::Span;
 
 use super::evaluate::{Evaluated, Evaluator};
-use super::place::Place;
+use super::expression_place::ExpressionPlace;
 use super::scope::Category;
 use super::value::Value;
 use crate::diagnostics::Fault;
@@ -20,7 +20,7 @@ pub(super) const REACTION: &str = "reaction";
 impl Evaluator<'_> {
     /// Whether rates of velocities may be asked for.
     pub(super) fn knows_motion(&self) -> bool {
-        matches!(self.place, Place::Output | Place::StateRate)
+        matches!(self.place, ExpressionPlace::Output | ExpressionPlace::StateRate)
     }
 
     /// `d/dt` of a function of time, coordinates, velocities, quasi-velocities and states, along the motion.
@@ -55,7 +55,7 @@ impl Evaluator<'_> {
             let fault =
                 fault.note("reactions follow from the motion: only `outputs` and `states` may use them");
             return self.fail(match self.place {
-                Place::GripForce | Place::GripLoad => fault.help(
+                ExpressionPlace::GripForce | ExpressionPlace::GripLoad => fault.help(
                     "a grip is loaded by a contact without friction, or by a constraint, as `load = reaction(name)`: factors belong into `friction`",
                 ),
                 _ => fault,

@@ -3,7 +3,7 @@
 use guen_symbolic::{BodyNode, ExprId, Graph, Rational, Workbench};
 
 use super::evaluate::{Evaluated, Evaluator};
-use super::place::Place;
+use super::expression_place::ExpressionPlace;
 use super::spatial::inner;
 use super::value::{BodyValue, Value, Vector};
 use crate::diagnostics::Fault;
@@ -15,8 +15,8 @@ pub(super) type Weight = (ExprId, Vector);
 impl Evaluator<'_> {
     /// `1/2 mass |dot(position)|^2`, (2.1)-(2.4).
     pub(super) fn particle(&mut self, particle: &Particle) -> Evaluated<(ExprId, Weight)> {
-        let mass = self.scalar_at(Place::Mass, &particle.mass);
-        let position = self.vector_at(Place::Position, &particle.position);
+        let mass = self.scalar_at(ExpressionPlace::Mass, &particle.mass);
+        let position = self.vector_at(ExpressionPlace::Position, &particle.position);
         let (mass, position) = (mass?, position?);
         let velocity = self.vector_rate(&position);
         let square = inner(&mut self.bench, &velocity, &velocity);
@@ -30,11 +30,15 @@ impl Evaluator<'_> {
         let mut weight = None;
         let name = body.name.text.clone();
         let mut value = BodyValue { name, center: None, orientation: None, mass: None, inertia: None };
-        let mass = body.mass.as_ref().map(|mass| self.scalar_at(Place::Mass, &mass.value)).transpose();
-        let center =
-            body.center.as_ref().map(|center| self.vector_at(Place::Position, &center.value)).transpose();
+        let mass =
+            body.mass.as_ref().map(|mass| self.scalar_at(ExpressionPlace::Mass, &mass.value)).transpose();
+        let center = body
+            .center
+            .as_ref()
+            .map(|center| self.vector_at(ExpressionPlace::Position, &center.value))
+            .transpose();
         let orientation = body.orientation.as_ref().map(|orientation| {
-            match self.at(Place::Position, &orientation.value)? {
+            match self.at(ExpressionPlace::Position, &orientation.value)? {
                 Value::Rotation(rotation) => Ok(*rotation),
                 other => self.fail(
                     Fault::new(
@@ -113,7 +117,7 @@ impl Evaluator<'_> {
         };
         let mut healthy = Ok(());
         for (entry, e) in entries.iter_mut().zip(written) {
-            match self.scalar_at(Place::Mass, e) {
+            match self.scalar_at(ExpressionPlace::Mass, e) {
                 Ok(value) => *entry = value,
                 Err(reported) => healthy = Err(reported),
             }

@@ -18,7 +18,7 @@ impl Evaluator<'_> {
     /// `fn name(x, y) = e;`: its names are checked here, its kinds where it is called.
     pub(super) fn function(&mut self, function: &FunctionDefinition) {
         self.entry = Some(function.name.text.clone());
-        self.place = super::place::Place::Let;
+        self.place = super::expression_place::ExpressionPlace::Let;
         let before = self.faults.count();
         let mut own: BTreeSet<&str> = BTreeSet::new();
         for parameter in &function.parameters {

@@ -4,7 +4,7 @@ use proc_macro2::Span;
 
 use super::accelerations::REACTION;
 use super::evaluate::{Evaluated, Evaluator};
-use super::place::Place;
+use super::expression_place::ExpressionPlace;
 use super::scope::Category;
 use super::value::{ContactValue, Value};
 use crate::diagnostics::Fault;
@@ -45,7 +45,7 @@ impl Evaluator<'_> {
     /// `gap(name)` or `slip(name)`.
     pub(super) fn of_contact(&mut self, function: &Name, arguments: &[Expression], list: Span) -> Evaluated {
         let word = function.text.as_str();
-        if self.place != Place::Output {
+        if self.place != ExpressionPlace::Output {
             let place = self.place.description(self.entry.as_deref());
             let fault =
                 Fault::new(function.span(), format!("{place} cannot ask for the {word} of a contact"));

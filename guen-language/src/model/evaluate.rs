@@ -7,8 +7,8 @@ use proc_macro2::Span;
 
 use super::assumed_rates::AssumedRates;
 use super::declared_functions::DeclaredFunctions;
+use super::expression_place::{ExpressionPlace, ROLES, role_name};
 use super::motion_symbols::MotionSymbols;
-use super::place::{Place, ROLES, role_name};
 use super::scope::{Category, Scope};
 use super::shapes::Shapes;
 use super::value::{ContactValue, Value, Vector};
@@ -33,7 +33,7 @@ pub(super) struct Evaluator<'f> {
     /// `d/dt` of functions of time and coordinates: `x_i` moves at `x_i'`, `t` at one.
     pub(super) rate: Option<Flow>,
     /// The place that is being evaluated.
-    pub(super) place: Place,
+    pub(super) place: ExpressionPlace,
     /// The entry that is being evaluated, where it has a name.
     pub(super) entry: Option<String>,
     /// Parameters and constraints with their definitions in the velocities.
@@ -66,7 +66,7 @@ impl Evaluator<'_> {
     }
 
     /// Evaluates at a place and checks that nothing occurs there that may not.
-    pub(super) fn at(&mut self, place: Place, e: &Expression) -> Evaluated {
+    pub(super) fn at(&mut self, place: ExpressionPlace, e: &Expression) -> Evaluated {
         self.place = place;
         let value = match self.value(e) {
             Ok(value) => value,
@@ -84,7 +84,7 @@ impl Evaluator<'_> {
     }
 
     /// Evaluates as [`Evaluator::at`], for places that take a scalar.
-    pub(super) fn scalar_at(&mut self, place: Place, e: &Expression) -> Evaluated<ExprId> {
+    pub(super) fn scalar_at(&mut self, place: ExpressionPlace, e: &Expression) -> Evaluated<ExprId> {
         match self.at(place, e)? {
             Value::Scalar(value) => Ok(value),
             other => {
@@ -95,7 +95,7 @@ impl Evaluator<'_> {
     }
 
     /// Evaluates as [`Evaluator::at`], for places that take a vector.
-    pub(super) fn vector_at(&mut self, place: Place, e: &Expression) -> Evaluated<Vector> {
+    pub(super) fn vector_at(&mut self, place: ExpressionPlace, e: &Expression) -> Evaluated<Vector> {
         match self.at(place, e)? {
             Value::Vector(value) => Ok(value),
             other => {
@@ -109,7 +109,7 @@ impl Evaluator<'_> {
     }
 
     /// Reports every name and call that brings in what may not occur at a place.
-    fn check_allowed(&mut self, place: Place, roles: Roles, e: &Expression) -> Evaluated<()> {
+    fn check_allowed(&mut self, place: ExpressionPlace, roles: Roles, e: &Expression) -> Evaluated<()> {
         let allowed = place.allowed();
         let mut result = Ok(());
         let mut seen = BTreeSet::new();
@@ -130,7 +130,7 @@ impl Evaluator<'_> {
     }
 
     /// Reports the names that may not occur at a place in an expression that has no value, because of another fault.
-    fn check_names(&mut self, place: Place, e: &Expression) {
+    fn check_names(&mut self, place: ExpressionPlace, e: &Expression) {
         let allowed = place.allowed();
         let is_refused = |role: &Role| !allowed.has(*role) && !self.culprits(e, Roles::of(*role)).is_empty();
         let refused: Vec<Role> = ROLES.into_iter().filter(is_refused).collect();
@@ -140,7 +140,7 @@ impl Evaluator<'_> {
 
     fn fail_not_allowed(
         &mut self,
-        place: Place,
+        place: ExpressionPlace,
         role: Role,
         span: Span,
         name: Option<&str>,
@@ -171,20 +171,20 @@ impl Evaluator<'_> {
             fault = fault.note_place(&format!("`{name}` contains {inside} by its definition"), defined);
         }
         fault = match (place, role) {
-            (Place::Holonomic, Role::Velocity | Role::QuasiVelocity) => {
+            (ExpressionPlace::Holonomic, Role::Velocity | Role::QuasiVelocity) => {
                 fault.help("a condition on velocities belongs into `constraints`")
             }
-            (Place::ForceFunction, Role::Velocity | Role::QuasiVelocity | Role::Input) => {
+            (ExpressionPlace::ForceFunction, Role::Velocity | Role::QuasiVelocity | Role::Input) => {
                 fault.help("write it under `forces`, as `force along velocity;`")
             }
             (_, Role::Input) if switch.is_some() => fault.note(
                 "switches are allowed in `forces`, `states`, `outputs` and the values of `resets`, and in the coefficients, limits and conditions of contacts",
             ),
             (_, Role::Input) => fault.note("inputs are allowed in `states`, `forces`, `outputs` and the values of `resets` only"),
-            (Place::Force, Role::QuasiAcceleration) => {
+            (ExpressionPlace::Force, Role::QuasiAcceleration) => {
                 fault.note("accelerations follow from forces: `outputs` and the rates of states may use them")
             }
-            (Place::KineticEnergy | Place::ForceFunction, Role::State) => fault
+            (ExpressionPlace::KineticEnergy | ExpressionPlace::ForceFunction, Role::State) => fault
                 .note("energies are those of the motion; states act on it through `forces`")
                 .help("write what the state does as `force along velocity;`"),
             (_, Role::State) => fault.note("states are allowed in `forces`, `states`, `outputs`, `switches`, `resets`, and the limits and conditions of contacts"),

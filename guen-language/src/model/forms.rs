@@ -8,7 +8,7 @@ use guen_symbolic::{
 use proc_macro2::Span;
 
 use super::evaluate::{Evaluated, Evaluator, LONGEST_NOTE};
-use super::place::Place;
+use super::expression_place::ExpressionPlace;
 use super::scope::Category;
 use super::value::Value;
 use super::{FormEntry, FormKind};
@@ -44,7 +44,7 @@ impl Evaluator<'_> {
     /// `name = e;` in `parameters`: a scalar, or a vector that declares its components.
     pub(super) fn parameter<'a>(&mut self, definition: &'a Definition, forms: &mut Vec<RawForm<'a>>) {
         self.entry = Some(definition.name.text.clone());
-        let value = self.at(Place::Parameter, &definition.value);
+        let value = self.at(ExpressionPlace::Parameter, &definition.value);
         let sides = vec![&definition.value];
         self.declare_forms(
             FormHeading { name: &definition.name, docs: &definition.docs, kind: FormKind::Parameter },
@@ -57,7 +57,7 @@ impl Evaluator<'_> {
 
     /// `name: l = r;` in `constraints`: `eta_v = l - r`; zero may stand for the zero vector.
     pub(super) fn constraint<'a>(&mut self, equation: &'a Equation, forms: &mut Vec<RawForm<'a>>) {
-        let value = self.difference(Place::Constraint, equation);
+        let value = self.difference(ExpressionPlace::Constraint, equation);
         let sides = vec![&equation.left, &equation.right];
         self.declare_forms(
             FormHeading { name: &equation.name, docs: &equation.docs, kind: FormKind::Constraint },
@@ -70,7 +70,7 @@ impl Evaluator<'_> {
 
     /// `name: l = r;` in `holonomic`: the form is the rate of `l - r`.
     pub(super) fn holonomic<'a>(&mut self, equation: &'a Equation, forms: &mut Vec<RawForm<'a>>) {
-        let position = self.difference(Place::Holonomic, equation);
+        let position = self.difference(ExpressionPlace::Holonomic, equation);
         let position = position.and_then(|position| self.somewhere(equation, position));
         let (value, position) = match position {
             Ok(Value::Scalar(f)) => {
@@ -116,7 +116,7 @@ impl Evaluator<'_> {
         Ok(position)
     }
 
-    fn difference(&mut self, place: Place, equation: &Equation) -> Evaluated {
+    fn difference(&mut self, place: ExpressionPlace, equation: &Equation) -> Evaluated {
         self.entry = Some(equation.name.text.clone());
         let (left, right) = (self.at(place, &equation.left), self.at(place, &equation.right));
         let (left, right) = (left?, right?);

@@ -5,7 +5,7 @@ use proc_macro2::Span;
 
 use super::accelerations::REACTION;
 use super::evaluate::{Evaluated, Evaluator};
-use super::place::role_name;
+use super::expression_place::role_name;
 use super::spatial::{cross, inner, plus};
 use super::value::{BodyValue, Value, Vector};
 use crate::diagnostics::Fault;

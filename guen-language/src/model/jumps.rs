@@ -6,7 +6,7 @@ use guen_symbolic::{
 use proc_macro2::Span;
 
 use super::evaluate::{Evaluated, Evaluator};
-use super::place::Place;
+use super::expression_place::ExpressionPlace;
 use super::value::Value;
 use crate::diagnostics::Fault;
 use crate::syntax::{Expression, ExpressionKind};
@@ -16,16 +16,24 @@ const PIECEWISE: [&str; 7] = ["select", "sign", "floor", "abs", "min", "max", "c
 
 impl Evaluator<'_> {
     /// Refuses what jumps in a form, a mass or an energy, and what has a kink in a position. Where nobody can tell it is accepted.
-    pub(super) fn check_jumps(&mut self, place: Place, value: &Value, e: &Expression) -> Evaluated<()> {
+    pub(super) fn check_jumps(
+        &mut self,
+        place: ExpressionPlace,
+        value: &Value,
+        e: &Expression,
+    ) -> Evaluated<()> {
         let has_slopes = match place {
-            Place::Parameter
-            | Place::Constraint
-            | Place::Slip
-            | Place::Grip
-            | Place::KineticEnergy
-            | Place::Mass
-            | Place::ForceFunction => false,
-            Place::Position | Place::Holonomic | Place::Gap | Place::Latch => true,
+            ExpressionPlace::Parameter
+            | ExpressionPlace::Constraint
+            | ExpressionPlace::Slip
+            | ExpressionPlace::Grip
+            | ExpressionPlace::KineticEnergy
+            | ExpressionPlace::Mass
+            | ExpressionPlace::ForceFunction => false,
+            ExpressionPlace::Position
+            | ExpressionPlace::Holonomic
+            | ExpressionPlace::Gap
+            | ExpressionPlace::Latch => true,
             _ => return Ok(()),
         };
         if !self.bench.graph.has_branches() {
@@ -52,7 +60,7 @@ impl Evaluator<'_> {
             let text = format!("{description} {what}{place_of_switch}");
             let fault = Fault::new(culprit(e).unwrap_or(e.extent()), text);
             return self.fail(match place {
-                Place::ForceFunction => fault
+                ExpressionPlace::ForceFunction => fault
                     .note("an energy that jumps is a force without bounds, which no step can follow")
                     .help("let both branches agree there, or write what jumps under `forces`"),
                 _ => fault

@@ -22,8 +22,8 @@ use super::assumed_rates::AssumedRates;
 use super::bodies::{Weight, is_no_inertia, turns_about_several_axes};
 use super::contact::{ResetEntry, SwitchEntry};
 use super::evaluate::{Evaluated, Evaluator};
+use super::expression_place::ExpressionPlace;
 use super::forms::RawForm;
-use super::place::Place;
 use super::scope::{Category, Scope};
 use super::shapes::Shapes;
 use super::spatial::inner;
@@ -155,7 +155,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 scope: Scope::default(),
                 time,
                 rate: None,
-                place: Place::Let,
+                place: ExpressionPlace::Let,
                 entry: None,
                 expansions: BTreeMap::new(),
                 left_out: Vec::new(),
@@ -277,7 +277,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             }
             Item::Let(definition) => {
                 self.eval.entry = Some(definition.name.text.clone());
-                let value = self.eval.at(Place::Let, &definition.value).ok();
+                let value = self.eval.at(ExpressionPlace::Let, &definition.value).ok();
                 value.iter().for_each(|value| self.eval.shapes.named(&definition.name.text, value));
                 self.eval.scope.declare(self.eval.faults, &definition.name, Category::Let, value);
             }
@@ -297,7 +297,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             }
             Item::KineticEnergy(quantity) => {
                 self.energy.get_or_insert(quantity);
-                if let Ok(energy) = self.eval.scalar_at(Place::KineticEnergy, &quantity.value) {
+                if let Ok(energy) = self.eval.scalar_at(ExpressionPlace::KineticEnergy, &quantity.value) {
                     let etas = self.parameters.iter().chain(&self.constraints).map(|form| form.symbol);
                     let etas: Vec<ExprId> = etas.chain(self.eval.rates.symbols()).collect();
                     self.eval.check_quadratic(&quantity.value, energy, &self.velocities, &etas);
@@ -368,14 +368,14 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 }
             }
             Item::Gravity(quantity) => {
-                self.gravity = self.eval.vector_at(Place::Gravity, &quantity.value).ok()
+                self.gravity = self.eval.vector_at(ExpressionPlace::Gravity, &quantity.value).ok()
             }
             Item::ForceFunction(quantity) => {
-                let value = self.eval.scalar_at(Place::ForceFunction, &quantity.value).ok();
+                let value = self.eval.scalar_at(ExpressionPlace::ForceFunction, &quantity.value).ok();
                 self.add_force_function(value);
             }
             Item::PotentialEnergy(quantity) => {
-                let potential = self.eval.scalar_at(Place::ForceFunction, &quantity.value).ok();
+                let potential = self.eval.scalar_at(ExpressionPlace::ForceFunction, &quantity.value).ok();
                 let value = potential.map(|v| self.eval.bench.graph.neg(v));
                 self.add_force_function(value);
             }
@@ -399,7 +399,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
     fn argument(&mut self, argument: &'a Argument) {
         let Argument { name, kind, component, given } = argument;
         self.eval.entry = Some(given.name.text.clone());
-        let value = self.eval.at(Place::Let, &given.value).ok();
+        let value = self.eval.at(ExpressionPlace::Let, &given.value).ok();
         let value = value.filter(|value| {
             let fits = match kind {
                 ArgumentKind::Scalar => matches!(value, Value::Scalar(_)),
@@ -445,8 +445,8 @@ impl<'a, 'f> Resolver<'a, 'f> {
     }
 
     fn force(&mut self, written: &'a WrittenForce) {
-        let magnitude = self.eval.at(Place::Force, &written.force);
-        let direction = self.eval.at(Place::Direction, &written.direction);
+        let magnitude = self.eval.at(ExpressionPlace::Force, &written.force);
+        let direction = self.eval.at(ExpressionPlace::Direction, &written.direction);
         let (Ok(magnitude), Ok(direction)) = (magnitude, direction) else { return };
         let (graph, shapes) = (&self.eval.bench.graph, &self.eval.shapes);
         let pairs = match (magnitude, direction) {
@@ -503,7 +503,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
 
     fn output(&mut self, definition: &'a Definition) {
         self.eval.entry = Some(definition.name.text.clone());
-        let value = self.eval.at(Place::Output, &definition.value);
+        let value = self.eval.at(ExpressionPlace::Output, &definition.value);
         let parts = match &value {
             Ok(Value::Scalar(e)) => vec![*e],
             Ok(Value::Vector(v)) => v.to_vec(),

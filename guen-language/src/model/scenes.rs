@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use guen_symbolic::{Bound, ExprId, Substitution};
 
 use super::evaluate::Evaluator;
-use super::place::Place;
+use super::expression_place::ExpressionPlace;
 use super::scope::Category;
 use super::value::Value;
 use super::{FixedConstant, SceneEntry, SceneModes};
@@ -131,7 +131,7 @@ impl Evaluator<'_> {
                 self.scope.refer(name);
                 self.entry = Some(name.text.clone());
                 // A number, or made of constants; a fault is reported there.
-                let mut value = self.scalar_at(Place::Fixed, written).ok()?;
+                let mut value = self.scalar_at(ExpressionPlace::Fixed, written).ok()?;
                 let mut symbol = match self.scope.peek(&name.text) {
                     Some(Value::Scalar(symbol)) => *symbol,
                     _ => return None,

@@ -12,7 +12,7 @@ use super::punctuation::equals;
 use super::units::unit;
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::MAX_ENTRIES;
-use crate::syntax::{Bound, BoundKind, Constant, Expression, Number};
+use crate::syntax::{BoundKind, Constant, Expression, Number, WrittenBound};
 
 const HELP_BOUND: &str = "the bounds are `name > 0`, `name >= 0`, `name != 0` and `name in lower..upper`";
 
@@ -99,7 +99,7 @@ fn is_comparison(cursor: &Cursor) -> bool {
 }
 
 /// `> 0`, `>= 0` or `!= 0`, if a comparison stands here.
-fn bound(cursor: &mut Cursor, faults: &mut Faults) -> Result<Option<Bound>, Reported> {
+fn bound(cursor: &mut Cursor, faults: &mut Faults) -> Result<Option<WrittenBound>, Reported> {
     if !is_comparison(cursor) {
         return Ok(None);
     }
@@ -135,5 +135,5 @@ fn bound(cursor: &mut Cursor, faults: &mut Faults) -> Result<Option<Bound>, Repo
         let fault = Fault::new(cursor.span(), "comparisons cannot be chained");
         return Err(faults.report(fault.help(HELP_BOUND)));
     }
-    Ok(Some(Bound { kind, span }))
+    Ok(Some(WrittenBound { kind, span }))
 }

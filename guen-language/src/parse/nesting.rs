@@ -7,7 +7,7 @@ use super::index::{condition, range};
 use super::names::name;
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_BRANCHES, MAX_NESTED_LOOPS};
-use crate::syntax::{Choice, Condition, Docs, Loop, Node, Section};
+use crate::syntax::{Condition, Conditional, Docs, Loop, Node, Section};
 
 const HELP_LOOP: &str = "a loop reads `for i in 0..n { .. }`";
 const HELP_CHOICE: &str = "a choice reads `if i < k { .. } else { .. }`";
@@ -100,7 +100,7 @@ impl<T> Entries<T> {
         cursor: &mut Cursor,
         faults: &mut Faults,
         read: &mut dyn FnMut(&Group, &mut Faults, &mut Self),
-    ) -> Result<Choice, Reported> {
+    ) -> Result<Conditional, Reported> {
         let mut branches = vec![self.branch(cursor, faults, read)?];
         let mut otherwise = Vec::new();
         while let Some(span) = cursor.eat_word("else") {
@@ -115,8 +115,8 @@ impl<T> Entries<T> {
         }
         // There is a branch at least.
         let Some((condition, then)) = branches.pop() else { return Err(faults.reported_before()) };
-        let last = Choice { condition, then, otherwise };
-        Ok(branches.into_iter().rev().fold(last, |inner, (condition, then)| Choice {
+        let last = Conditional { condition, then, otherwise };
+        Ok(branches.into_iter().rev().fold(last, |inner, (condition, then)| Conditional {
             condition,
             then,
             otherwise: vec![Node::If(inner)],

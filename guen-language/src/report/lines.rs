@@ -20,8 +20,8 @@ impl Section {
     }
 }
 
-/// Everything that is told about a system.
-pub struct Report {
+/// The report of a system: its lines, as text and as LaTeX.
+pub struct ReportLines {
     /// The system's name.
     pub name: String,
     /// A sentence that sums up the system.
@@ -30,11 +30,11 @@ pub struct Report {
     pub sections: Vec<Section>,
 }
 
-impl Report {
+impl ReportLines {
     /// The report of what stands in for a faulty declaration.
     pub(crate) fn stand_in(system: &proc_macro2::Ident) -> Self {
         let summary = "The declaration has faults: nothing was derived.".to_owned();
-        Report { name: system.to_string(), summary, sections: Vec::new() }
+        ReportLines { name: system.to_string(), summary, sections: Vec::new() }
     }
 }
 

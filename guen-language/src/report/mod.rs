@@ -10,13 +10,13 @@ mod scene;
 
 pub(crate) use contacts::row_name;
 pub(crate) use interface::interface;
-pub use lines::{Report, Section};
+pub use lines::{ReportLines, Section};
 pub(crate) use pages::page;
 pub use pages::set;
 
 use guen_symbolic::{ExprId, Notation};
 
-use crate::derive::{Level, MissingBounds, Subject, function};
+use crate::derive::{DerivedLevel, MissingBounds, Subject, function};
 use crate::model::{ChosenRates, FormKind, Model, RedundantEntry};
 use lines::{LATEX_TOO_LONG, Lines, TOO_LONG, Terms, Writer, class_name, plural};
 
@@ -32,17 +32,17 @@ const MANY_LINES: usize = 24;
 /// The lines that a section of such a report has at most, the line about those that are left out beside.
 const LINES_OF_A_SECTION: usize = 48;
 
-impl Report {
+impl ReportLines {
     /// Writes down what was derived of a level of detail of a model.
-    pub fn of(model: &Model<'_>, level: &Level) -> Self {
-        Report::of_part(model, level, model)
+    pub fn of(model: &Model<'_>, level: &DerivedLevel) -> Self {
+        ReportLines::of_part(model, level, model)
     }
 
     /// Writes down what was derived of a scene whose mode makes it a part of another system, as [`Derived::in_modes`] has it.
     ///
     /// [`Derived::in_modes`]: crate::derive::Derived::in_modes
-    pub fn of_part(model: &Model<'_>, level: &Level, whole: &Model<'_>) -> Self {
-        Report::new(&Subject { model, level, whole })
+    pub fn of_part(model: &Model<'_>, level: &DerivedLevel, whole: &Model<'_>) -> Self {
+        ReportLines::new(&Subject { model, level, whole })
     }
 
     /// Writes down what was derived of a level of detail.
@@ -93,7 +93,7 @@ impl Report {
             sections.iter_mut().for_each(Section::shorten);
         }
         let name = subject.name().text.clone();
-        Report { name, summary, sections: sections.into_iter().filter(|s| !s.text.is_empty()).collect() }
+        ReportLines { name, summary, sections: sections.into_iter().filter(|s| !s.text.is_empty()).collect() }
     }
 
     /// The whole report as text.
@@ -334,7 +334,7 @@ fn classification(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section
 }
 
 /// The steppers that the text of C does not have, and why.
-fn in_c(level: &Level) -> Option<String> {
+fn in_c(level: &DerivedLevel) -> Option<String> {
     if !level.provides_source || level.steps_adapt_in_c() {
         return None;
     }

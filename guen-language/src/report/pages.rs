@@ -1,6 +1,6 @@
 //! The declaration in words, and the page of rustdoc.
 
-use super::lines::{Report, Section};
+use super::lines::{ReportLines, Section};
 use super::mathml::paragraph;
 use crate::derive::Subject;
 use crate::model::{SymbolEntry, momentum, reaction};
@@ -82,7 +82,7 @@ pub fn set(page: &str) -> String {
     text
 }
 
-impl Report {
+impl ReportLines {
     /// The whole as Markdown for rustdoc: formulas as LaTeX between `$$`, for [`set`] to set, and what is longer than a few
     /// lines as text.
     pub fn to_page(&self) -> String {

@@ -130,7 +130,7 @@ fn nested<T: Display>(f: &mut Formatter<'_>, nodes: &[Node], entries: &[T], sepa
                 nested(f, body, entries, separator)?;
                 f.write_str(" }")?;
             }
-            Node::If(Choice { condition, then, otherwise }) => {
+            Node::If(Conditional { condition, then, otherwise }) => {
                 write!(f, "if {condition} {{ ")?;
                 nested(f, then, entries, separator)?;
                 f.write_str(" }")?;

@@ -152,7 +152,7 @@ pub enum Node {
     /// `for i in 0..n { .. }`.
     For(Loop),
     /// `if i < k { .. } else { .. }`.
-    If(Choice),
+    If(Conditional),
 }
 
 /// `for variable in range { body }`.
@@ -170,7 +170,7 @@ pub struct Loop {
 
 /// `if condition { then } else { otherwise }`.
 #[derive(Debug, Clone)]
-pub struct Choice {
+pub struct Conditional {
     /// The condition.
     pub condition: Condition,
     /// The entries where it holds.

@@ -29,15 +29,15 @@ pub use contact::{
 pub use digest::digest_of;
 pub use expression::{AddOperator, Expression, ExpressionKind, Factor, Fold, MultiplyOperator, Order, Term};
 pub use index::{
-    Choice, Comparison, Condition, Index, IndexExpression, IndexKind, IndexOperator, Loop, Node, Path, Range,
-    Step, WrittenIndex, WrittenMember,
+    Comparison, Condition, Conditional, Index, IndexExpression, IndexKind, IndexOperator, Loop, Node, Path,
+    Range, Step, WrittenIndex, WrittenMember,
 };
 pub use name::{Docs, Name, Visibility};
 pub use number::{Number, NumberProblem};
 pub use unit::{Dimension, Unit};
 
 pub use section::{
-    Body, BodyField, Bound, BoundKind, Constant, Count, Declaration, Definition, Equation, Fix, Force,
+    Body, BodyField, BoundKind, Constant, Count, Declaration, Definition, Equation, Fix, Force,
     FunctionDefinition, Inertia, Item, Particle, Plain, Provide, Quantity, Scene, SceneStatement, Section,
-    SectionKind, State, SuppliedFunction,
+    SectionKind, State, SuppliedFunction, WrittenBound,
 };

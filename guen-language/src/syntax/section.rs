@@ -265,7 +265,7 @@ pub struct Constant {
     /// The unit, if one is declared.
     pub unit: Option<Unit>,
     /// The bound, if one is declared.
-    pub bound: Option<Bound>,
+    pub bound: Option<WrittenBound>,
     /// The least and the largest value, of a constant that has limits.
     pub limits: Option<Box<[Expression; 2]>>,
     /// The default, if one is declared.
@@ -274,7 +274,7 @@ pub struct Constant {
 
 /// The bound that is promised of a constant.
 #[derive(Debug, Clone, Copy)]
-pub struct Bound {
+pub struct WrittenBound {
     /// The kind of the bound.
     pub kind: BoundKind,
     /// Place of the comparison.

@@ -7,8 +7,8 @@ use proc_macro2::Span;
 
 use crate::diagnostics::{Fault, Faults};
 use crate::syntax::{
-    Choice, Component, Condition, Expression, ExpressionKind, Index, IndexExpression, IndexKind, Item, Loop,
-    Node, Range,
+    Component, Condition, Conditional, Expression, ExpressionKind, Index, IndexExpression, IndexKind, Item,
+    Loop, Node, Range,
 };
 
 /// Reports constants, and instances with constants of their own, whose number or value depends on a count that a use gives.
@@ -100,7 +100,9 @@ impl Given<'_> {
             nodes.iter().any(|node| match node {
                 Node::Entry(entry) => is_meant(*entry),
                 Node::For(Loop { body, .. }) => has(body, is_meant),
-                Node::If(Choice { then, otherwise, .. }) => has(then, is_meant) || has(otherwise, is_meant),
+                Node::If(Conditional { then, otherwise, .. }) => {
+                    has(then, is_meant) || has(otherwise, is_meant)
+                }
             })
         }
         nodes.iter().find_map(|node| match node {
@@ -109,7 +111,7 @@ impl Given<'_> {
                 let own = self.range(range).filter(|_| has(body, is_meant));
                 own.or_else(|| self.nodes(body, is_meant))
             }
-            Node::If(Choice { condition, then, otherwise }) => {
+            Node::If(Conditional { condition, then, otherwise }) => {
                 let own =
                     self.condition(condition).filter(|_| has(then, is_meant) || has(otherwise, is_meant));
                 own.or_else(|| self.nodes(then, is_meant)).or_else(|| self.nodes(otherwise, is_meant))

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::diagnostics::{Fault, Faults};
 use crate::names::{RATE_SUFFIX, is_function, is_reserved, nearest};
 use crate::syntax::{
-    Choice, Component, Expression, ExpressionKind, Index, Item, Loop, ModeStatement, Name, Node, SPEED,
+    Component, Conditional, Expression, ExpressionKind, Index, Item, Loop, ModeStatement, Name, Node, SPEED,
 };
 
 /// Reports names that a component does not declare, and names that it declares twice or that are reserved.
@@ -122,7 +122,7 @@ pub(super) fn loop_variables<'a>(nodes: &'a [Node], found: &mut Vec<&'a str>) {
                 found.push(&variable.text);
                 loop_variables(body, found);
             }
-            Node::If(Choice { then, otherwise, .. }) => {
+            Node::If(Conditional { then, otherwise, .. }) => {
                 loop_variables(then, found);
                 loop_variables(otherwise, found);
             }

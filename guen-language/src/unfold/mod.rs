@@ -21,7 +21,9 @@ use proc_macro2::Span;
 use crate::diagnostics::{Fault, Faults};
 use crate::limits::MAX_UNFOLDED;
 use crate::names;
-use crate::syntax::{Choice, Component, Declaration, Docs, Index, Item, Loop, Name, Node, Range, Visibility};
+use crate::syntax::{
+    Component, Conditional, Declaration, Docs, Index, Item, Loop, Name, Node, Range, Visibility,
+};
 use arrays::Arrays;
 pub(crate) use component_names::names as check_names;
 
@@ -145,7 +147,7 @@ impl<'f> Unfolder<'f> {
                     self.check_variable(variable);
                     self.repeat(variable, range, &mut |this| this.nodes(body, visit));
                 }
-                Node::If(Choice { condition, then, otherwise }) => match self.holds(condition) {
+                Node::If(Conditional { condition, then, otherwise }) => match self.holds(condition) {
                     Some(true) => self.nodes(then, visit),
                     Some(false) => self.nodes(otherwise, visit),
                     None => {}

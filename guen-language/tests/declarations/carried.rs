@@ -2,7 +2,7 @@
 //! those of the system, and those of the functions are what central differences along the motion show.
 
 use crate::common::{derived, evaluated, rounds};
-use guen_language::derive::{Derived, Level, function};
+use guen_language::derive::{Derived, DerivedLevel, function};
 use guen_symbolic::{Role, SymbolId};
 
 /// A fixed sequence of numbers that looks random (a linear congruential generator, upper bits).
@@ -75,7 +75,7 @@ fn declaration(draw: &mut Sequence) -> String {
 }
 
 /// The values of a function of a level; symbols without a value are refused.
-fn values(derived: &Derived<'_>, level: &Level, name: &str, known: &[(SymbolId, f64)]) -> Vec<f64> {
+fn values(derived: &Derived<'_>, level: &DerivedLevel, name: &str, known: &[(SymbolId, f64)]) -> Vec<f64> {
     let at = |symbol: SymbolId| {
         let known = known.iter().find(|(other, _)| *other == symbol);
         known

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::common::{derived, evaluated};
 use crate::families::robots;
-use guen_language::derive::{Derived, Level, function};
+use guen_language::derive::{Derived, DerivedLevel, function};
 use guen_symbolic::{Graph, SymbolId, evaluate_f64};
 
 /// A level's rates, put into its equations at a state.
@@ -23,7 +23,7 @@ fn residual(derived: &Derived<'_>) -> f64 {
 }
 
 /// The residual of the equations of motion at a level's rates, relative to the largest of their terms.
-fn left(level: &Level, graph: &Graph, value: &impl Fn(SymbolId) -> f64) -> f64 {
+fn left(level: &DerivedLevel, graph: &Graph, value: &impl Fn(SymbolId) -> f64) -> f64 {
     let rates = evaluated(level, function::RHS, value).unwrap();
     let equations = &level.derivation.equations;
     let forces = evaluate_f64(graph, &equations.forces, value);

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use guen_language::diagnostics::collect;
-use guen_language::report::Report;
+use guen_language::report::ReportLines;
 use guen_language::{derive, emit, model, parse};
 
 /// The size of an expansion.
@@ -25,7 +25,7 @@ fn size(text: &str) -> Size {
     let derived = derived.unwrap();
     let rates = derived.system.program(derive::function::RHS).unwrap().cost;
     let has_mass = derived.system.program(derive::function::MASS_FORM).is_some();
-    let report = Report::of(&derived.model, &derived.system).to_text();
+    let report = ReportLines::of(&derived.model, &derived.system).to_text();
     let bytes = emit::emit(derived).to_string().len() as f64;
     Size { operations: f64::from(rates.operations() + rates.sines + rates.calls), bytes, report, has_mass }
 }

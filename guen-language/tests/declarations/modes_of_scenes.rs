@@ -1,10 +1,10 @@
 //! Modes of scenes that run through several: their rates by the elimination of smooth systems.
 
 use crate::common::derived;
-use guen_language::derive::Level;
+use guen_language::derive::DerivedLevel;
 use guen_language::derive::function::{FREE_MOTION, RHS, mode_rates};
 
-fn operations(level: &Level, name: &str) -> u32 {
+fn operations(level: &DerivedLevel, name: &str) -> u32 {
     let cost = level.program(name).expect("a program").cost;
     cost.operations() + cost.calls + cost.sines
 }

@@ -1,10 +1,10 @@
 //! Scenes in a single mode of contacts: the system with these rows as constraints, as a user would declare it.
 
 use crate::common::{derived, evaluated};
-use guen_language::derive::Level;
+use guen_language::derive::DerivedLevel;
 use guen_language::derive::function::RHS;
 use guen_language::model::Model;
-use guen_language::report::Report;
+use guen_language::report::ReportLines;
 use guen_symbolic::SymbolId;
 
 /// The wheel of the design, with a scene that rolls.
@@ -44,11 +44,11 @@ const BY_HAND: &str = "
         scene Rolling { track speed_ahead; }
     }";
 
-fn names(model: &Model<'_>, level: &Level) -> Vec<String> {
+fn names(model: &Model<'_>, level: &DerivedLevel) -> Vec<String> {
     level.selection.variables.iter().map(|place| model.variable_name(*place).to_owned()).collect()
 }
 
-fn operations(level: &Level) -> u32 {
+fn operations(level: &DerivedLevel) -> u32 {
     let rates = level.program(RHS).unwrap().cost;
     rates.operations() + rates.calls + rates.sines
 }
@@ -211,7 +211,7 @@ fn rows_that_depend_on_each_other_are_named() {
         let level = &own.scenes[0];
         assert_eq!(names(&own.model, level), ["q", "swing"]);
         assert_eq!(own.model.forms.len(), 4);
-        let report = Report::of_part(&own.model, level, &derived.model).to_text();
+        let report = ReportLines::of_part(&own.model, level, &derived.model).to_text();
         let note = "rows of `left_foot`, `right_foot` depend on each other: only sums of their reactions are determined";
         assert!(report.contains(note), "{report}");
         assert!(report.contains("left_foot stick, right_foot stick"), "{report}");
@@ -242,7 +242,7 @@ fn a_report_has_the_direction_of_a_slip() {
     }";
     derived(text, |derived| {
         let (_, own) = &derived.in_modes[0];
-        let report = Report::of_part(&own.model, &own.scenes[0], &derived.model).to_text();
+        let report = ReportLines::of_part(&own.model, &own.scenes[0], &derived.model).to_text();
         assert!(report.contains("floor slip-"), "{report}");
     });
 }

@@ -2,7 +2,7 @@
 
 use guen_language::derive::{Derived, Painleve};
 use guen_language::model::{ContactKind, ContactState};
-use guen_language::report::Report;
+use guen_language::report::ReportLines;
 use guen_symbolic::evaluate_f64;
 use nalgebra::DMatrix;
 
@@ -207,7 +207,8 @@ fn several_contacts_are_not_decided_by_signs() {
 
 #[test]
 fn the_report_has_the_reason() {
-    let report = |text: &str| derived(text, |derived| Report::of(&derived.model, &derived.system).to_text());
+    let report =
+        |text: &str| derived(text, |derived| ReportLines::of(&derived.model, &derived.system).to_text());
     let proved = report(&rod("mu in 0..1", "mu"));
     assert!(
         proved.contains(

@@ -2,7 +2,7 @@
 
 use guen_language::derive::{derive, function};
 use guen_language::diagnostics::collect;
-use guen_language::report::Report;
+use guen_language::report::ReportLines;
 use guen_language::{model, parse};
 
 use crate::common::{derived, evaluated};
@@ -167,7 +167,7 @@ fn scenes_and_outputs_know_the_chosen_names() {
     );
     derived(&text, |derived| {
         assert_eq!(derived.scenes.len(), 1);
-        let report = Report::of(&derived.model, &derived.system).to_text();
+        let report = ReportLines::of(&derived.model, &derived.system).to_text();
         assert!(report.contains("phi_rate and x_rate are chosen by the macro"), "{report}");
     });
 }

@@ -3,7 +3,7 @@
 
 use guen_language::derive::{derive, function};
 use guen_language::diagnostics::collect;
-use guen_language::report::Report;
+use guen_language::report::ReportLines;
 use guen_language::{model, parse};
 
 use crate::common::{derived, evaluated};
@@ -166,7 +166,7 @@ fn an_inertia_of_no_body_has_a_line_in_the_report() {
             }}"
         );
         derived(&text, |derived| {
-            let report = Report::of(&derived.model, &derived.system).to_text();
+            let report = ReportLines::of(&derived.model, &derived.system).to_text();
             report.contains("the inertia of top is that of no body")
         })
     };
@@ -323,7 +323,7 @@ fn the_report_names_what_an_equation_follows_from_beside_chosen_parameters() {
     };
     for parameters in ["", "parameters { w = dot(p); }"] {
         let report = derived(&folded(parameters), |folded| {
-            let report = Report::of(&folded.model, &folded.system).to_text();
+            let report = ReportLines::of(&folded.model, &folded.system).to_text();
             report.lines().filter(|line| line.contains("is no form")).map(str::to_owned).collect::<Vec<_>>()
         });
         let [line] = &report[..] else { panic!("{report:?}") };

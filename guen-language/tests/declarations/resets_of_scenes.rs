@@ -1,12 +1,12 @@
 //! Resets of scenes: which ones a scene keeps, and what it keeps because of them.
 
 use crate::common::derived;
-use guen_language::derive::Level;
+use guen_language::derive::DerivedLevel;
 use guen_language::model::Model;
 
 /// The names of what a scene keeps, of its resets, each with the variables that it changes, and of its switches; `None` for those of a
 /// smooth system.
-fn kept(model: &Model<'_>, level: &Level) -> (Vec<String>, Option<Vec<String>>) {
+fn kept(model: &Model<'_>, level: &DerivedLevel) -> (Vec<String>, Option<Vec<String>>) {
     let variables = &level.selection.variables;
     let name = |place: usize| model.variable_name(variables[place]);
     let resets = level.contacts.as_ref().zip(model.contacts.as_ref()).map(|(facts, contacts)| {

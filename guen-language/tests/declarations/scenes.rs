@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use crate::common::{derived, evaluated, rounds};
-use guen_language::derive::{Derived, Level};
+use guen_language::derive::{Derived, DerivedLevel};
 use guen_language::model;
 use guen_symbolic::{Role, SymbolId};
 
@@ -85,7 +85,13 @@ pub fn declaration(draw: &mut Sequence) -> String {
 }
 
 /// The value of a symbol in a program of a level: constants and variables of the whole system, by name.
-fn run(derived: &Derived<'_>, level: &Level, name: &str, constants: [f64; 3], state: &[f64]) -> Vec<f64> {
+fn run(
+    derived: &Derived<'_>,
+    level: &DerivedLevel,
+    name: &str,
+    constants: [f64; 3],
+    state: &[f64],
+) -> Vec<f64> {
     let graph = &derived.model.bench.graph;
     let variables: Vec<_> =
         (0..state.len()).map(|p| graph.as_symbol(derived.model.variable(p)).unwrap()).collect();

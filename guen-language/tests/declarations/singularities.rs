@@ -6,7 +6,7 @@
 //! velocities and reactions within the bound of `docs/design/rounding.md`. Programs run in doubles and in 71 digits.
 
 use f256::f256;
-use guen_language::derive::{Derived, Level, function};
+use guen_language::derive::{Derived, DerivedLevel, function};
 use guen_symbolic::{Arithmetic, ExprId, Rational, SymbolId, evaluate, evaluate_function, evaluate_prepare};
 
 use crate::common::derived;
@@ -37,7 +37,7 @@ impl Draw {
 /// A derived system whose programs are evaluated at states. A state is a list of coordinates, parameters and constants.
 struct Asked<'a> {
     derived: &'a Derived<'a>,
-    level: &'a Level,
+    level: &'a DerivedLevel,
     /// The symbols of coordinates, parameters and constants.
     symbols: Vec<SymbolId>,
     accelerations: Vec<SymbolId>,

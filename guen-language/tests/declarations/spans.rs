@@ -16,10 +16,10 @@ const TEXT: &str = "pub system Sled {
     outputs { place = vec(ahead, y); }
 }";
 
-type Place = (usize, usize);
+type LineAndColumn = (usize, usize);
 
 /// The places at which each identifier of a stream was written.
-fn identifiers(stream: TokenStream, found: &mut BTreeMap<String, Vec<Place>>) {
+fn identifiers(stream: TokenStream, found: &mut BTreeMap<String, Vec<LineAndColumn>>) {
     for token in stream {
         match token {
             TokenTree::Ident(ident) => {

@@ -1,7 +1,7 @@
 //! States beside the motion: their rates, what may depend on them, and what scenes keep of them.
 
 use guen_language::derive::{Derived, function};
-use guen_language::report::Report;
+use guen_language::report::ReportLines;
 use guen_symbolic::SymbolId;
 
 use crate::common::{derived, evaluated};
@@ -151,7 +151,7 @@ fn scenes_leave_states_that_act_on_nothing() {
                 "phi omega current error bias heat",
             ]
         );
-        let report = Report::of(&derived.model, &derived.scenes[0]).to_text();
+        let report = ReportLines::of(&derived.model, &derived.scenes[0]).to_text();
         assert!(
             report.contains("bias: its rate vanishes identically, and it is a constant here"),
             "{report}"
@@ -201,7 +201,7 @@ fn loops_declare_states() {
     assert_eq!(cost(&looped), cost(&written));
     derived(&looped, |derived| {
         assert_eq!(derived.model.variable_name(5), "z[3]");
-        let report = Report::of(&derived.model, &derived.system).to_text();
+        let report = ReportLines::of(&derived.model, &derived.system).to_text();
         assert!(report.contains("z[1]' = "), "{report}");
     });
 }

@@ -3,7 +3,7 @@
 
 use crate::common::{derived, evaluated};
 use guen_language::derive::{Derived, function};
-use guen_language::report::Report;
+use guen_language::report::ReportLines;
 use guen_symbolic::{SymbolId, evaluate_f64};
 
 /// Particles on massless links, in absolute angles.
@@ -133,7 +133,7 @@ fn a_bound_that_saves_operations_is_told() {
     };
     let costs = |constants: &str| {
         derived(&linked(constants), |derived| {
-            let report = Report::of(&derived.model, &derived.system);
+            let report = ReportLines::of(&derived.model, &derived.system);
             let lines = report.sections.into_iter().find(|section| section.title == "Cost").unwrap().text;
             (lines.iter().any(|line| line.starts_with("declare")), lines)
         })

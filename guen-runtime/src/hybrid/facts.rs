@@ -4,14 +4,14 @@ use crate::hybrid::filled::filled;
 
 use crate::hybrid::element::Kind;
 use crate::hybrid::error::HybridCause;
+use crate::hybrid::hybrid_state::{Fired, HybridState};
 use crate::hybrid::mode::ElementState;
-use crate::hybrid::place::{Fired, Place};
 use crate::hybrid::select::{Known, Rate};
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::vanishing::{is_rounding, vanishes};
 use crate::numbers::running_error::RunningError;
 
-impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Place<H, N, W, C, S>
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> HybridState<H, N, W, C, S>
 where
     H: HybridSystem<N, W, C, S> + Clone,
 {

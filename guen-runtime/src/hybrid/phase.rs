@@ -101,7 +101,7 @@ const DIFFERENT: f64 = 1e-7;
 
 /// A state of one element that is tried.
 #[derive(Clone, Copy, Debug, Default)]
-struct Choice {
+struct Candidate {
     closed: bool,
     tangential: Tangential,
     /// Spatial slip in a direction that is to be found.
@@ -134,7 +134,7 @@ impl<const W: usize, const C: usize> Phase<'_, f64, W, C> {
 
     /// Visits the states of all elements whose impulses satisfy the laws, with their violation by rounding.
     pub(super) fn visit(&self, visit: &mut dyn FnMut(&Solved<f64, W, C>, f64)) -> Result<(), Unsolved> {
-        let choices: [([Choice; 8], usize); C] = filled(|c| self.choices(c));
+        let choices: [([Candidate; 8], usize); C] = filled(|c| self.choices(c));
         let count = choices.iter().fold(1_usize, |product, (_, length)| product.saturating_mul(*length));
         if count > MAX_COMBINATIONS {
             return Err(Unsolved::None);
@@ -172,30 +172,30 @@ impl<const W: usize, const C: usize> Phase<'_, f64, W, C> {
     }
 
     /// The states of an element that are tried.
-    fn choices(&self, c: usize) -> ([Choice; 8], usize) {
-        let nothing = Choice { closed: false, tangential: Tangential::None, turns: false };
+    fn choices(&self, c: usize) -> ([Candidate; 8], usize) {
+        let nothing = Candidate { closed: false, tangential: Tangential::None, turns: false };
         let mut all = [nothing; 8];
         let mut count = 0;
         let mut add = |choice| {
             all[count] = choice;
             count += 1;
         };
-        let slides = |add: &mut dyn FnMut(Choice), closed: bool| match self.elements[c].tangential.len() {
-            0 => add(Choice { closed, ..nothing }),
+        let slides = |add: &mut dyn FnMut(Candidate), closed: bool| match self.elements[c].tangential.len() {
+            0 => add(Candidate { closed, ..nothing }),
             components => {
-                add(Choice { closed, tangential: Tangential::Stick, turns: false });
+                add(Candidate { closed, tangential: Tangential::Stick, turns: false });
                 if components == 1 {
                     for sign in [1.0, -1.0] {
-                        add(Choice { closed, tangential: Tangential::Slip([sign, 0.0]), turns: false });
+                        add(Candidate { closed, tangential: Tangential::Slip([sign, 0.0]), turns: false });
                     }
                 } else {
-                    add(Choice { closed, tangential: Tangential::Slip([1.0, 0.0]), turns: true });
+                    add(Candidate { closed, tangential: Tangential::Slip([1.0, 0.0]), turns: true });
                 }
             }
         };
         match self.participants[c] {
             Participant::Absent => add(nothing),
-            Participant::Locked => add(Choice { closed: true, ..nothing }),
+            Participant::Locked => add(Candidate { closed: true, ..nothing }),
             Participant::Grip if !self.elements[c].is_loaded() => add(nothing),
             Participant::Grip => slides(&mut add, false),
             Participant::Contact { floor } => {

@@ -1,8 +1,8 @@
 //! The end of a mode as exactly as the method computes it, and everything that ends it.
 
+use crate::hybrid::hybrid_state::{Fired, HybridState};
 use crate::hybrid::in_mode::InMode;
 use crate::hybrid::located::{Does, Found};
-use crate::hybrid::place::{Fired, Place};
 use crate::hybrid::run::Run;
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::watched::Function;
@@ -85,7 +85,7 @@ where
 
     /// All functions that reach zero where one was found.
     pub(super) fn fired(&self, found: Found, bracket: f64) -> Fired<C, S> {
-        let Place { t, state, in_mode, sides, .. } = &self.place;
+        let HybridState { t, state, in_mode, sides, .. } = &self.place;
         let watched = in_mode.watched_along(sides, *t, state);
         let mut fired = Fired::default();
         fired.add(found.function);

@@ -1,13 +1,13 @@
 //! Resets: new values for variables, all from the state before.
 
 use crate::hybrid::error::HybridCause;
-use crate::hybrid::place::{Fired, Place};
+use crate::hybrid::hybrid_state::{Fired, HybridState};
 use crate::hybrid::system::HybridSystem;
 
 /// The part of the largest coordinate by which a reset may miss the constraints on positions: its formula is rounded.
 const MISSED: f64 = 1e-9;
 
-impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Place<H, N, W, C, S>
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> HybridState<H, N, W, C, S>
 where
     H: HybridSystem<N, W, C, S> + Clone,
 {

@@ -4,10 +4,10 @@ use crate::hybrid::filled::filled;
 
 use crate::hybrid::element::Kind;
 use crate::hybrid::error::HybridCause;
+use crate::hybrid::hybrid_state::HybridState;
 use crate::hybrid::impact::{Impact, STILL, Struck};
 use crate::hybrid::in_mode::{InMode, moved};
 use crate::hybrid::mode::{ElementState, Mode};
-use crate::hybrid::place::Place;
 use crate::hybrid::select::{Known, Rate, Unselected, select};
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::transition::TransitionKind;
@@ -81,7 +81,7 @@ impl<const C: usize> Resting<C> {
     }
 }
 
-impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Place<H, N, W, C, S>
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> HybridState<H, N, W, C, S>
 where
     H: HybridSystem<N, W, C, S> + Clone,
 {

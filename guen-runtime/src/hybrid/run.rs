@@ -2,10 +2,10 @@
 
 use crate::hybrid::driver::{Hybrid, HybridResult};
 use crate::hybrid::error::{HybridCause, HybridError};
+use crate::hybrid::hybrid_state::{Fired, HybridState};
 use crate::hybrid::in_mode::InMode;
 use crate::hybrid::located::{Does, Found, Step};
 use crate::hybrid::mode::Mode;
-use crate::hybrid::place::{Fired, Place};
 use crate::hybrid::resting::Resting;
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::transition::{Facts, Transition, TransitionKind};
@@ -27,7 +27,7 @@ where
     H: HybridSystem<N, W, C, S>,
 {
     pub(super) hybrid: Hybrid<'a, H, N, W, C, S>,
-    pub(super) place: Place<H, N, W, C, S>,
+    pub(super) place: HybridState<H, N, W, C, S>,
     pub(super) resting: Resting<C>,
     pub(super) visited: usize,
     pub(super) switched: usize,
@@ -97,7 +97,7 @@ where
         let in_mode = InMode::new(self.system.clone(), mode, self.t, &state);
         let signals = in_mode.switches.map(|value| 2.0 * value - 1.0);
         let sides = Sides { latches: [1.0; C], signals, slow: [0.0; C] };
-        let place = Place { t: self.t, state, in_mode, sides, begins: true };
+        let place = HybridState { t: self.t, state, in_mode, sides, begins: true };
         let resting = Resting::new(self.resting_accuracy);
         let run = Run {
             place,
@@ -155,7 +155,7 @@ where
             }
             if let Some(fired) = due {
                 let stops = self.turn(&fired, switched, end)?;
-                let Place { t, state, in_mode, .. } = &self.place;
+                let HybridState { t, state, in_mode, .. } = &self.place;
                 let kept = witness(*t, state, in_mode);
                 kept.map_err(|cause| self.failed(HybridCause::Integration(cause)))?;
                 if stops {
@@ -188,13 +188,13 @@ where
     }
 
     fn result(&self, stopped: bool) -> HybridResult<H::Mode, N> {
-        let Place { t, state, in_mode, .. } = &self.place;
+        let HybridState { t, state, in_mode, .. } = &self.place;
         let (transitions, work) = (self.transitions, self.work);
         HybridResult { t: *t, state: *state, mode: in_mode.mode.into(), stopped, transitions, work }
     }
 
     fn failed(&self, cause: HybridCause<C>) -> HybridError<N, C> {
-        let Place { t, state, in_mode, .. } = &self.place;
+        let HybridState { t, state, in_mode, .. } = &self.place;
         let cause = match cause {
             // Steps become too small where a reaction grows beyond all bounds.
             HybridCause::Integration(Cause::StepUnderflow | Cause::NotFinite) if self.place.jams() => {

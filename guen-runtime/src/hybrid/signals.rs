@@ -1,15 +1,15 @@
 //! The values of switches and branches where the state has jumped, and where a branch of a piecewise function begins on its zero.
 
 use crate::hybrid::element::Effect;
+use crate::hybrid::hybrid_state::{Fired, HybridState};
 use crate::hybrid::located::side;
-use crate::hybrid::place::{Fired, Place};
 use crate::hybrid::select::Sign;
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::vanishing::ROUNDING;
 use crate::hybrid::watched::Function;
 use crate::numbers::running_error::RunningError;
 
-impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Place<H, N, W, C, S>
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> HybridState<H, N, W, C, S>
 where
     H: HybridSystem<N, W, C, S> + Clone,
 {

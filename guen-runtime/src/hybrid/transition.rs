@@ -91,7 +91,7 @@ pub struct Transition<M, const N: usize, const W: usize, const C: usize> {
 /// The facts of a transition that its derivative depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Facts<const C: usize> {
-    /// The functions of the elements that reached zero, as [`Fired`](crate::hybrid::place::Fired) lists them.
+    /// The functions of the elements that reached zero, as [`Fired`](crate::hybrid::hybrid_state::Fired) lists them.
     pub(super) gap: [bool; C],
     pub(super) normal: [bool; C],
     pub(super) cone: [[bool; 2]; C],

@@ -4,6 +4,7 @@ use crate::hybrid::filled::filled;
 
 use crate::hybrid::element::{Kind, Signal};
 use crate::hybrid::error::HybridCause;
+use crate::hybrid::hybrid_state::{Fired, HybridState};
 use crate::hybrid::impact::{Impact, STILL};
 use crate::hybrid::in_mode::{InMode, moved};
 use crate::hybrid::loads::Loads;
@@ -12,7 +13,6 @@ use crate::hybrid::mode::{ElementState, Mode};
 use crate::hybrid::mode_rows::Leaning;
 use crate::hybrid::phase::Unsolved;
 use crate::hybrid::pivots::Pivots;
-use crate::hybrid::place::{Fired, Place};
 use crate::hybrid::resting::Resting;
 use crate::hybrid::select::{Known, Rate, select};
 use crate::hybrid::system::{FreeMotion, HybridSystem};
@@ -21,9 +21,9 @@ use crate::hybrid::watched::Function;
 
 /// The next place, and the transition that led to it.
 pub(super) type Turned<H, const N: usize, const W: usize, const C: usize, const S: usize> =
-    (Place<H, N, W, C, S>, Transition<Mode<C>, N, W, C>);
+    (HybridState<H, N, W, C, S>, Transition<Mode<C>, N, W, C>);
 
-impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Place<H, N, W, C, S>
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> HybridState<H, N, W, C, S>
 where
     H: HybridSystem<N, W, C, S> + Clone,
 {

@@ -217,7 +217,6 @@ impl Real for f32 {
     }
 }
 
-
 /// The real root of order `q`, by a power and one Newton step `y - (y - |x| / y^(q-1)) / q`, which removes the
 /// rounding of `1/q`.
 #[inline(never)]

@@ -16,7 +16,7 @@ use crate::words::Words;
 const DRAWN: u64 = 40;
 
 /// A point of the plane.
-type Place = [ExprId; 2];
+type Point = [ExprId; 2];
 
 fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
     let mut draw = Draw::new(seed);
@@ -34,7 +34,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
     let motion = words.velocities.iter().copied().chain([one]);
     let mut rate =
         Flow::new(&words.graph, words.x.iter().copied().chain([words.time]).zip(motion).collect::<Vec<_>>());
-    let ground: Place = if belt {
+    let ground: Point = if belt {
         let s = words.graph.sin(words.time);
         let half = words.graph.ratio(1, 2);
         let wave = words.graph.scale(s, &Rational::new(1, 3));
@@ -47,7 +47,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
     let mut links: Vec<(Rational, ExprId)> = Vec::new();
     let mut kinetic: Vec<(ExprId, ExprId)> = Vec::new();
     let mut potential = Vec::new();
-    let (mut place, mut heading): (Place, ExprId) = ([words.x[0], words.x[1]], words.x[2]);
+    let (mut place, mut heading): (Point, ExprId) = ([words.x[0], words.x[1]], words.x[2]);
     for k in 0..=trailers {
         if k > 0 {
             if words.draw.once_in(3) {
@@ -142,7 +142,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
 }
 
 /// A point at a distance behind another.
-fn moved(words: &mut Words, from: Place, heading: ExprId, distance: &Rational) -> Place {
+fn moved(words: &mut Words, from: Point, heading: ExprId, distance: &Rational) -> Point {
     let (s, c) = words.graph.sin_cos(heading);
     let mut found = from;
     for (x, direction) in found.iter_mut().zip([c, s]) {
@@ -156,7 +156,7 @@ fn moved(words: &mut Words, from: Place, heading: ExprId, distance: &Rational) -
 fn multiplied_out(
     words: &mut Words,
     rate: &mut Flow,
-    ground: &Place,
+    ground: &Point,
     links: &[(Rational, ExprId)],
     heading: ExprId,
 ) -> ExprId {

@@ -16,7 +16,7 @@ use crate::words::Words;
 const DRAWN: u64 = 40;
 
 /// A point of a plane or of space.
-type Place = [ExprId; 3];
+type Point = [ExprId; 3];
 
 /// What a drawn tree has.
 #[derive(Default)]
@@ -60,7 +60,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Features) {
             kinetic.push(words.graph.product(&[(half, 1), (mass, 1), (speed, 2)]));
         }
     };
-    let anchor: Place = match root {
+    let anchor: Point = match root {
         2 => {
             features.note("prescribed");
             let s = words.graph.sin(words.time);
@@ -75,7 +75,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Features) {
         }
         _ => [zero; 3],
     };
-    let mut tips: Vec<(Place, ExprId)> = vec![(anchor, zero)];
+    let mut tips: Vec<(Point, ExprId)> = vec![(anchor, zero)];
     let mut children = vec![0; links + 1];
     for link in 0..links {
         let parent = if link > 0 && words.draw.once_in(4) { words.draw.between(1, link) } else { link };
@@ -102,7 +102,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Features) {
         }
         let length = words.draw.pick(&[(1, 1), (1, 2), (2, 3)]);
         let length = words.graph.ratio(length.0, length.1);
-        let at = |words: &mut Words, distance: ExprId| -> Place {
+        let at = |words: &mut Words, distance: ExprId| -> Point {
             let mut found = place;
             for (x, e) in found.iter_mut().zip(direction) {
                 let part = words.graph.mul(distance, e);

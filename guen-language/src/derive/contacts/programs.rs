@@ -12,7 +12,7 @@ use crate::limits::MAX_SWITCHES;
 use crate::model::Contacts;
 
 /// The contacts of a level.
-pub(in crate::derive) struct Level<'l> {
+pub(in crate::derive) struct LevelContacts<'l> {
     pub(super) modes: &'l [Vec<usize>],
     /// The switches by their places.
     pub(super) switches: &'l [usize],
@@ -26,11 +26,11 @@ pub(in crate::derive) struct Level<'l> {
 pub(in crate::derive) fn programs(
     bench: &mut Workbench,
     contacts: &Contacts<'_>,
-    level: &Level<'_>,
+    level: &LevelContacts<'_>,
     name: Span,
     faults: &mut Faults,
 ) -> Option<(Programs, ContactFacts)> {
-    let Level { modes, switches, motions, functions, limits } = *level;
+    let LevelContacts { modes, switches, motions, functions, limits } = *level;
     let rows = &functions.rows;
     let lists: Vec<Vec<ExprId>> = motions.iter().map(|motion| motion.list(functions)).collect();
     let mut values = values_by_state(bench, contacts, functions);

@@ -15,7 +15,7 @@ use super::super::closure::Reason;
 use super::super::fixed::Holding;
 use super::super::parts::View;
 use super::super::selection::{Selection, StateIndex, StatePart};
-use super::programs::{Level, programs};
+use super::programs::{LevelContacts, programs};
 use super::{ContactEquations, ContactFacts, ContactFunctions, FreeMotion, ResetFacts, limits, resets};
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{ContactEntry, ContactState, Contacts, Model};
@@ -356,8 +356,13 @@ impl<'c, 'a> SceneContacts<'c, 'a> {
         let components: Vec<usize> = components.collect();
         seen.outputs = components.into_iter().map(|c| view.of(model, functions.outputs[c])).collect();
         let limits = limits(model);
-        let level =
-            Level { modes, switches: &switches, motions: &motions, functions: &seen, limits: &limits };
+        let level = LevelContacts {
+            modes,
+            switches: &switches,
+            motions: &motions,
+            functions: &seen,
+            limits: &limits,
+        };
         let (programs, mut facts) = programs(&mut model.bench, contacts, &level, name, faults)?;
         facts.resets = own;
         Some((programs, facts))

@@ -7,7 +7,7 @@ use guen_symbolic::{Bound, ExprId, Role, Roles};
 use super::Resolver;
 use crate::diagnostics::Fault;
 use crate::model::ConstantEntry;
-use crate::model::place::Place;
+use crate::model::expression_place::ExpressionPlace;
 use crate::model::scope::Category;
 use crate::names::array_of;
 use crate::syntax::{BoundKind, Constant, Expression, Plain};
@@ -23,7 +23,7 @@ impl<'a> Resolver<'a, '_> {
         };
         self.eval.entry = Some(constant.name.text.clone());
         let is_degrees = constant.unit.as_ref().is_some_and(|unit| unit.is_degrees);
-        let default = constant.default.as_ref().map(|e| self.eval.scalar_at(Place::Default, e));
+        let default = constant.default.as_ref().map(|e| self.eval.scalar_at(ExpressionPlace::Default, e));
         let default = default.map(|e| e.map(|e| self.in_unit(e, is_degrees)));
         if let (Some(Ok(value)), Some(default)) = (&default, &constant.default) {
             self.check_default(*value, bound, default);
@@ -104,7 +104,7 @@ impl<'a> Resolver<'a, '_> {
 
     /// The limits of a constant; two numbers have to stand in their order.
     fn constant_limits(&mut self, limits: &[Expression; 2], is_degrees: bool) -> Option<[ExprId; 2]> {
-        let values = limits.each_ref().map(|e| self.eval.scalar_at(Place::Default, e).ok());
+        let values = limits.each_ref().map(|e| self.eval.scalar_at(ExpressionPlace::Default, e).ok());
         let [Some(lower), Some(upper)] = values.map(|e| e.map(|e| self.in_unit(e, is_degrees))) else {
             return None;
         };
@@ -126,7 +126,7 @@ impl<'a> Resolver<'a, '_> {
     /// The limits of an input; two numbers have to stand in their order.
     pub(super) fn limits(&mut self, plain: &Plain, limits: &[Expression; 2]) -> Option<[ExprId; 2]> {
         self.eval.entry = Some(plain.name.text.clone());
-        let values = limits.each_ref().map(|e| self.eval.scalar_at(Place::Limit, e).ok());
+        let values = limits.each_ref().map(|e| self.eval.scalar_at(ExpressionPlace::Limit, e).ok());
         let [Some(lower), Some(upper)] = values else { return None };
         self.in_order(lower, upper, limits);
         Some([lower, upper])

@@ -29,7 +29,7 @@ impl<'a> Resolver<'a, '_> {
     /// `name: e;` of `switches`.
     pub(super) fn switch(&mut self, switch: &'a Switch) {
         self.eval.entry = Some(switch.name.text.clone());
-        let function = self.eval.scalar_at(Place::Switch, &switch.value);
+        let function = self.eval.scalar_at(ExpressionPlace::Switch, &switch.value);
         let mut symbol = self.eval.bench.graph.symbol(&switch.name.text, Role::Input);
         let function = function.and_then(|function| {
             let signs = self.signs(function, None);
@@ -115,14 +115,14 @@ impl<'a> Resolver<'a, '_> {
     fn clauses(&mut self, contact: &'a Contact) {
         for clause in &contact.clauses {
             let place = match clause.word {
-                ClauseWord::Gap => Place::Gap,
-                ClauseWord::Slip => Place::Slip,
-                ClauseWord::Grip => Place::Grip,
-                ClauseWord::Latch => Place::Latch,
-                ClauseWord::Stiction => Place::Stiction,
-                ClauseWord::Restitution => Place::Restitution,
-                ClauseWord::Limit => Place::GripForce,
-                ClauseWord::When | ClauseWord::Release => Place::Condition,
+                ClauseWord::Gap => ExpressionPlace::Gap,
+                ClauseWord::Slip => ExpressionPlace::Slip,
+                ClauseWord::Grip => ExpressionPlace::Grip,
+                ClauseWord::Latch => ExpressionPlace::Latch,
+                ClauseWord::Stiction => ExpressionPlace::Stiction,
+                ClauseWord::Restitution => ExpressionPlace::Restitution,
+                ClauseWord::Limit => ExpressionPlace::GripForce,
+                ClauseWord::When | ClauseWord::Release => ExpressionPlace::Condition,
                 // `speed` and `reaction(name)` have their meaning there.
                 ClauseWord::Friction | ClauseWord::Load => continue,
             };
@@ -190,7 +190,7 @@ impl<'a> Resolver<'a, '_> {
         };
         let condition = |this: &mut Self, word: ClauseWord| {
             let clause = contact.clause(word)?;
-            let value = this.eval.scalar_at(Place::Condition, &clause.value);
+            let value = this.eval.scalar_at(ExpressionPlace::Condition, &clause.value);
             this.condition(contact, clause, value).ok()
         };
         let when = condition(self, ClauseWord::When);

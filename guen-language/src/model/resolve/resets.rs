@@ -16,7 +16,7 @@ impl<'a> Resolver<'a, '_> {
         self.eval.entry = Some(reset.name.text.clone());
         let before = self.eval.faults.count();
         self.eval.scope.declare(self.eval.faults, &reset.name, Category::Reset, None);
-        let function = self.eval.scalar_at(Place::ResetFunction, &reset.function);
+        let function = self.eval.scalar_at(ExpressionPlace::ResetFunction, &reset.function);
         if let Ok(function) = function
             && !self.passes_through_zero(function)
         {
@@ -37,7 +37,7 @@ impl<'a> Resolver<'a, '_> {
         let mut places: Vec<(ExprId, &Expression)> = Vec::new();
         for given in &reset.assignments {
             let variable = self.variable(given);
-            let value = self.eval.at(Place::ResetValue, &given.value);
+            let value = self.eval.at(ExpressionPlace::ResetValue, &given.value);
             let (Ok(variable), Ok(value)) = (variable, value) else { continue };
             for (symbol, value) in self.pairs(given, &variable, &value) {
                 let first = places.iter().find(|(known, _)| *known == symbol);
@@ -64,7 +64,7 @@ impl<'a> Resolver<'a, '_> {
         let fault = |text: String| Fault::new(written.extent(), text).note(VARIABLES);
         let name = match &written.kind {
             ExpressionKind::Name(name) => name,
-            ExpressionKind::Missing => return self.eval.at(Place::ResetValue, written),
+            ExpressionKind::Missing => return self.eval.at(ExpressionPlace::ResetValue, written),
             ExpressionKind::Call { function, .. } if function.text == "dot" => {
                 let fault = fault(format!("`{}` is a velocity, and no variable", written.source()));
                 return self.eval.fail(fault.help("velocities follow from the parameters: reset these"));
@@ -87,7 +87,7 @@ impl<'a> Resolver<'a, '_> {
                 _ => fault,
             });
         }
-        self.eval.at(Place::ResetValue, written)
+        self.eval.at(ExpressionPlace::ResetValue, written)
     }
 
     /// The symbols of variables with their values.

@@ -7,7 +7,7 @@ use guen_symbolic::Role;
 
 use super::Resolver;
 use crate::model::SymbolEntry;
-use crate::model::place::Place;
+use crate::model::expression_place::ExpressionPlace;
 use crate::model::scope::Category;
 use crate::syntax::{Item, State};
 
@@ -41,7 +41,7 @@ impl<'a> Resolver<'a, '_> {
         let place = self.states.iter().position(|known| std::ptr::eq(known.name, &state.name));
         let Some(place) = place else { return self.declare_state(state) };
         self.eval.entry = Some(state.name.text.clone());
-        if let Ok(rate) = self.eval.scalar_at(Place::StateRate, &state.rate) {
+        if let Ok(rate) = self.eval.scalar_at(ExpressionPlace::StateRate, &state.rate) {
             self.eval.states[place].1 = Some(rate);
         }
     }

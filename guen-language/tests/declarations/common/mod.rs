@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use guen_language::derive::{Derived, Level, derive};
+use guen_language::derive::{Derived, DerivedLevel, derive};
 use guen_language::diagnostics::collect;
 use guen_language::{model, parse};
 use guen_symbolic::{REFUTED, SymbolId, evaluate_function, evaluate_prepare, formulation_names};
@@ -67,7 +67,7 @@ pub fn fault_messages(text: &str) -> Vec<String> {
 
 /// What a program of a level computes where its symbols have these values; `None` if there is none of that name.
 #[allow(dead_code, reason = "some tests look at costs only")]
-pub fn evaluated(level: &Level, name: &str, value: impl Fn(SymbolId) -> f64) -> Option<Vec<f64>> {
+pub fn evaluated(level: &DerivedLevel, name: &str, value: impl Fn(SymbolId) -> f64) -> Option<Vec<f64>> {
     let programs = &level.programs;
     let place = programs.functions.iter().position(|own| own.name == name)?;
     Some(evaluate_function(programs, place, &evaluate_prepare(programs, &value), &value))

@@ -230,15 +230,15 @@ fn relocate(token: &mut TokenTree, span: Span) {
     }
 }
 
-type Place = ((usize, usize), (usize, usize));
+type Extent = ((usize, usize), (usize, usize));
 
-fn place(span: Span) -> Place {
+fn place(span: Span) -> Extent {
     let (start, end) = (span.start(), span.end());
     ((start.line, start.column), (end.line, end.column))
 }
 
 /// The places of all tokens, of groups also of their delimiters.
-fn places(stream: TokenStream, found: &mut BTreeSet<Place>) {
+fn places(stream: TokenStream, found: &mut BTreeSet<Extent>) {
     for token in stream {
         found.insert(place(token.span()));
         if let TokenTree::Group(group) = token {

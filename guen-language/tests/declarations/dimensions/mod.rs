@@ -5,7 +5,7 @@ mod twenty;
 
 use guen_language::derive::derive;
 use guen_language::diagnostics::collect;
-use guen_language::report::Report;
+use guen_language::report::ReportLines;
 use guen_language::{model, parse, with_further_faults};
 
 use crate::common::derived;
@@ -150,7 +150,7 @@ fn units_follow_from_others() {
         {
             assert_eq!(units[name], unit, "{name}");
         }
-        let report = Report::of(&derived.model, &derived.system).to_text();
+        let report = ReportLines::of(&derived.model, &derived.system).to_text();
         assert!(report.contains("g: m/s^2 = 9.81") && report.contains("v: m/s"), "{report}");
     });
     // Most follow from the few that are left.
@@ -316,7 +316,7 @@ fn momenta_and_reactions_have_units() {
                     "{name} of {number}"
                 );
             }
-            let report = Report::of(&derived.model, &derived.system).to_text();
+            let report = ReportLines::of(&derived.model, &derived.system).to_text();
             let lines = report.lines().skip_while(|line| *line != "Units of momenta and reactions").skip(1);
             let lines: Vec<&str> = lines.take_while(|line| !line.is_empty()).map(str::trim).collect();
             assert!(!lines.is_empty(), "{report}");

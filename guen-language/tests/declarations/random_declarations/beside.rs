@@ -1,7 +1,7 @@
 //! What is emitted beside the rates of a drawn declaration, against its meaning: forms, momenta, the energy integral and its rate, slopes of
 //! positions, poses, reactions as a covector, operators with their brackets, and linearisations.
 
-use guen_language::derive::{Derived, Level, function};
+use guen_language::derive::{Derived, DerivedLevel, function};
 use guen_language::model::Model;
 use guen_symbolic::{ExprId, Pattern, SymbolId, evaluate_function, evaluate_prepare};
 
@@ -61,7 +61,7 @@ fn bracket(declared: &Declared<'_>, point: &[f64], fields: &[Vec<f64>], (r, s): 
 /// A state of a declaration, and what was compared there.
 struct Look<'l, 'a> {
     model: &'l Model<'a>,
-    level: &'l Level,
+    level: &'l DerivedLevel,
     declared: &'l Declared<'a>,
     point: Vec<f64>,
     reference: Multipliers,
@@ -236,14 +236,14 @@ impl Look<'_, '_> {
 }
 
 /// The symbols by which a level is differentiated.
-pub fn columns(model: &Model<'_>, level: &Level) -> Vec<SymbolId> {
+pub fn columns(model: &Model<'_>, level: &DerivedLevel) -> Vec<SymbolId> {
     let variables = level.selection.variables.iter().map(|place| model.variable(*place));
     let inputs = level.selection.inputs.iter().map(|input| model.inputs[*input].symbol);
     variables.chain(inputs).map(|e| model.bench.graph.as_symbol(e).expect("a symbol")).collect()
 }
 
 /// The linearisations of a level, each with the program that is differentiated and the places of its results.
-pub fn jacobians(level: &Level) -> impl Iterator<Item = (&'static str, &'static str, &Pattern)> {
+pub fn jacobians(level: &DerivedLevel) -> impl Iterator<Item = (&'static str, &'static str, &Pattern)> {
     let all = [
         (function::LINEARIZATION, function::RHS, &level.jacobians.rates),
         (function::OUTPUT_LINEARIZATION, function::OUTPUTS, &level.jacobians.outputs),

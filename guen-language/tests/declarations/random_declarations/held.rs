@@ -1,7 +1,7 @@
 //! Scenes of drawn declarations in a single mode of contacts: the mechanism with what holds as further constraints, and with the friction of
 //! what slips, by Lagrange's equations with multipliers.
 
-use guen_language::derive::{Level, derive, function};
+use guen_language::derive::{DerivedLevel, derive, function};
 use guen_language::diagnostics::collect;
 use guen_language::model::{self, Model};
 use guen_language::parse;
@@ -26,7 +26,7 @@ pub struct Seen {
 pub fn look_at(
     whole: &Model<'_>,
     mode: &Mode,
-    (model, level, program): (&Model<'_>, &Level, &str),
+    (model, level, program): (&Model<'_>, &DerivedLevel, &str),
     draw: &mut Draw,
 ) -> Seen {
     let all = mode.among(whole.declaration);

@@ -1,7 +1,7 @@
 //! Scenes drawn at random for drawn declarations: their rates, energies, outputs and reactions are those of the whole system,
 //! they have all that their items read, and their right-hand sides never cost more.
 
-use guen_language::derive::{Derived, Level, function};
+use guen_language::derive::{Derived, DerivedLevel, function};
 use guen_symbolic::{ExprId, Role, SymbolId};
 
 use super::draw::Draw;
@@ -46,7 +46,7 @@ pub fn declaration(seed: u64) -> String {
 }
 
 /// Whether a level has what its items read: a result for every name.
-fn missing(level: &Level) -> Option<String> {
+fn missing(level: &DerivedLevel) -> Option<String> {
     let count = |name: &str| level.program(name).map_or(0, |program| program.outputs.len());
     let selection = &level.selection;
     let wanted = [
@@ -67,7 +67,7 @@ fn looked_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
     let symbol = |e: ExprId| graph.as_symbol(e).expect("a symbol");
     let numbers = numbers(derived);
     let declared = &numbers.declared;
-    let cost = |level: &Level| level.program(function::RHS).map_or(0, |rhs| rhs.cost.weighted());
+    let cost = |level: &DerivedLevel| level.program(function::RHS).map_or(0, |rhs| rhs.cost.weighted());
     let mut draw = Draw::new(seed.rotate_left(9));
     let mut seen = Seen::default();
     let written =

@@ -30,7 +30,7 @@ pub struct Mechanism {
 
 /// Where a joint can be: an orientation, a point, and the coordinates on the way there.
 #[derive(Clone)]
-struct Place {
+struct JointPlace {
     turn: String,
     point: String,
     way: Vec<String>,
@@ -106,7 +106,7 @@ impl Mechanism {
     }
 
     /// A body, or what somebody takes for one.
-    fn body(&mut self, draw: &mut Draw, place: &Place) -> String {
+    fn body(&mut self, draw: &mut Draw, place: &JointPlace) -> String {
         let name = self.fresh("B");
         if self.careless && draw.once_in(5) {
             // A link without mass.
@@ -159,7 +159,7 @@ impl Mechanism {
     }
 
     /// A joint on a body: the place that it carries.
-    fn joint(&mut self, draw: &mut Draw, on: &Place) -> Place {
+    fn joint(&mut self, draw: &mut Draw, on: &JointPlace) -> JointPlace {
         let offset = self.offset(draw);
         let name = self.fresh("P");
         let (mut point, mut way) = (format!("{} + {}*{offset}", on.point, on.turn), on.way.clone());
@@ -202,11 +202,11 @@ impl Mechanism {
             }
         };
         self.lets += &format!("let R{name} = {turn};\nlet o{name} = {point};\n");
-        Place { turn: format!("R{name}"), point: format!("o{name}"), way }
+        JointPlace { turn: format!("R{name}"), point: format!("o{name}"), way }
     }
 
     /// What everything stands on: the ground, a body that floats, one that rolls, a cart on wheels.
-    fn base(&mut self, draw: &mut Draw) -> Place {
+    fn base(&mut self, draw: &mut Draw) -> JointPlace {
         let name = self.fresh("P");
         let mut way = Vec::new();
         let (turn, point) = match draw.below(10) {
@@ -229,7 +229,7 @@ impl Mechanism {
             _ => ("rot_z(0)".to_owned(), "vec(0, 0, 0)".to_owned()),
         };
         self.lets += &format!("let R{name} = {turn};\nlet o{name} = {point};\n");
-        let place = Place { turn: format!("R{name}"), point: format!("o{name}"), way };
+        let place = JointPlace { turn: format!("R{name}"), point: format!("o{name}"), way };
         if !place.way.is_empty() {
             self.body(draw, &place);
         }
@@ -237,7 +237,7 @@ impl Mechanism {
     }
 
     /// A disc that rolls on the plane.
-    fn disc(&mut self, draw: &mut Draw) -> Place {
+    fn disc(&mut self, draw: &mut Draw) -> JointPlace {
         let [name, touch] = ["B", "touch"].map(|letter| self.fresh(letter));
         let [x, y] = ["x", "y"].map(|letter| self.coordinate(letter));
         self.free.clear();
@@ -252,17 +252,17 @@ impl Mechanism {
             "{name} {{ mass: {mass}, inertia: diag({a}, {c}, {a}), center: o{name}, orientation: R{name} }}\n"
         );
         self.constraints += &format!("{touch}: {name}.velocity_at(vec({x}, {y}, 0)) = 0; ");
-        Place { turn: format!("R{name}"), point: format!("o{name}"), way: Vec::new() }
+        JointPlace { turn: format!("R{name}"), point: format!("o{name}"), way: Vec::new() }
     }
 
     /// A cart on two wheels: neither slips along, one of them not across either; a careless one says it of both.
-    fn cart(&mut self, draw: &mut Draw) -> Place {
+    fn cart(&mut self, draw: &mut Draw) -> JointPlace {
         let name = self.fresh("B");
         let [x, y] = ["x", "y"].map(|letter| self.coordinate(letter));
         let yaw = self.coordinate("q");
         let (half, radius) = (self.length(draw), self.length(draw));
         self.lets += &format!("let R{name} = rot_z({yaw});\nlet o{name} = vec({x}, {y}, {radius});\n");
-        let place = Place { turn: format!("R{name}"), point: format!("o{name}"), way: Vec::new() };
+        let place = JointPlace { turn: format!("R{name}"), point: format!("o{name}"), way: Vec::new() };
         self.body(draw, &place);
         let mut taken = vec![y, x];
         for (side, sign) in [("left", "+"), ("right", "-")] {
@@ -287,7 +287,7 @@ impl Mechanism {
     }
 
     /// Holds a point of the mechanism in place.
-    fn close(&mut self, draw: &mut Draw, place: &Place) {
+    fn close(&mut self, draw: &mut Draw, place: &JointPlace) {
         let rows = if self.planar { 2 } else { 3 };
         let mut taken: Vec<String> = place.way.iter().filter(|q| self.free.contains(q)).cloned().collect();
         if taken.len() <= rows {

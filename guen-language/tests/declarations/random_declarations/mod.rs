@@ -35,7 +35,7 @@ mod series;
 mod several;
 mod space;
 
-use guen_language::derive::{Derived, Level, function};
+use guen_language::derive::{Derived, DerivedLevel, function};
 use guen_language::model::{self, Model};
 use guen_symbolic::{ExprId, Graph, SymbolId, evaluate_f64};
 
@@ -70,7 +70,7 @@ impl Numbers<'_> {
     }
 
     /// Values of constants, inputs and states; what a scene fixes has the values that it has there.
-    fn given(&self, graph: &Graph, level: &Level, draw: &mut Draw) -> Vec<f64> {
+    fn given(&self, graph: &Graph, level: &DerivedLevel, draw: &mut Draw) -> Vec<f64> {
         let mut given: Vec<f64> = self.held.iter().map(|_| draw.real(0.5, 1.5)).collect();
         for (constant, value) in level.scene.iter().flat_map(|facts| &facts.fixes) {
             let others = |other: SymbolId| {

@@ -15,12 +15,12 @@ use crate::ensemble::{Ensemble, Sampled};
 /// is_for_devices(&Rk8::new(0.1));
 /// is_for_devices(&Dop853::new(1e-9, 1e-9));
 /// ```
-pub trait DeviceMethod: Own + Sync {}
+pub trait DeviceMethod: HasKernel + Sync {}
 
-impl<M: Own + Sync> DeviceMethod for M {}
+impl<M: HasKernel + Sync> DeviceMethod for M {}
 
 /// The kernel of a method, and its work without one: out of reach of other crates, which cannot add methods to kernels.
-pub trait Own {
+pub trait HasKernel {
     /// The method of the kernel, with its settings.
     fn in_kernel(&self) -> (KernelMethod, [f64; 4]);
 
@@ -53,7 +53,7 @@ fn in_lanes<M: LaneMethod + Sync, S: Laned<N> + Sync, const N: usize>(
 
 macro_rules! fixed {
     ($($Method:ident)*) => {
-        $(impl Own for $Method {
+        $(impl HasKernel for $Method {
             fn in_kernel(&self) -> (KernelMethod, [f64; 4]) {
                 (KernelMethod::$Method, [self.step(), 0.0, 0.0, 0.0])
             }
@@ -72,7 +72,7 @@ macro_rules! fixed {
 }
 fixed!(Rk4 Rk8);
 
-impl Own for Dop853 {
+impl HasKernel for Dop853 {
     fn in_kernel(&self) -> (KernelMethod, [f64; 4]) {
         /// Numbers of steps that a double counts, more than any run makes.
         const COUNTABLE: u64 = 1 << 53;

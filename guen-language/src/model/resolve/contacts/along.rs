@@ -18,7 +18,8 @@ pub(super) struct Along {
 impl Resolver<'_, '_> {
     /// The gap: a function of time and coordinates.
     pub(super) fn gap(&mut self, contact: &Contact, clause: &Clause) -> Evaluated<ExprId> {
-        let place = if clause.word == ClauseWord::Latch { Place::Latch } else { Place::Gap };
+        let place =
+            if clause.word == ClauseWord::Latch { ExpressionPlace::Latch } else { ExpressionPlace::Gap };
         let gap = self.eval.scalar_at(place, &clause.value)?;
         let what = if clause.word == ClauseWord::Latch { "latch" } else { "gap" };
         let (name, span) = (&contact.name, clause.value.extent());
@@ -56,7 +57,8 @@ impl Resolver<'_, '_> {
     pub(super) fn slip(&mut self, contact: &Contact, clause: &Clause) -> Evaluated<Along> {
         let word = clause.word.text();
         let name = &contact.name;
-        let place = if clause.word == ClauseWord::Grip { Place::Grip } else { Place::Slip };
+        let place =
+            if clause.word == ClauseWord::Grip { ExpressionPlace::Grip } else { ExpressionPlace::Slip };
         let value = self.eval.at(place, &clause.value)?;
         let (forms, shapes): (Vec<_>, Vec<_>) = match &value {
             Value::Scalar(form) => vec![(*form, self.eval.shapes.form(*form))],

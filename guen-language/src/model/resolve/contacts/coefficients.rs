@@ -30,9 +30,9 @@ impl<'a> Resolver<'a, '_> {
         self.eval.functions.frames.push(own.into_iter().collect());
         let place = match clause.word {
             // The whole system has checked it. Here a switch is not held, and may stand for velocities and states.
-            _ if self.declaration.in_mode.is_some() => Place::Let,
-            ClauseWord::Stiction => Place::Stiction,
-            _ => Place::Friction,
+            _ if self.declaration.in_mode.is_some() => ExpressionPlace::Let,
+            ClauseWord::Stiction => ExpressionPlace::Stiction,
+            _ => ExpressionPlace::Friction,
         };
         let value = self.eval.scalar_at(place, &clause.value);
         self.eval.functions.frames.pop();
@@ -42,7 +42,11 @@ impl<'a> Resolver<'a, '_> {
 
     /// The limit of a grip, or its load where that is an expression.
     pub(super) fn force_of_grip(&mut self, contact: &Contact, clause: &Clause) -> Evaluated<ExprId> {
-        let place = if clause.word == ClauseWord::Load { Place::GripLoad } else { Place::GripForce };
+        let place = if clause.word == ClauseWord::Load {
+            ExpressionPlace::GripLoad
+        } else {
+            ExpressionPlace::GripForce
+        };
         let value = self.eval.scalar_at(place, &clause.value)?;
         self.not_below_zero(contact, clause, value, None)
     }
@@ -105,7 +109,7 @@ impl<'a> Resolver<'a, '_> {
 
     /// The coefficient of restitution: of constants, from 0 to 1.
     pub(super) fn restitution(&mut self, contact: &Contact, clause: &Clause) -> Evaluated<ExprId> {
-        let value = self.eval.scalar_at(Place::Restitution, &clause.value)?;
+        let value = self.eval.scalar_at(ExpressionPlace::Restitution, &clause.value)?;
         let graph = &self.eval.bench.graph;
         let span = clause.value.extent();
         if let Some(number) = graph.as_number(value) {

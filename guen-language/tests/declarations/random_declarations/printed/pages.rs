@@ -1,12 +1,12 @@
 //! The pages that are made of a report: each line of it in each of them, as it was.
 
-use guen_language::report::Report;
+use guen_language::report::ReportLines;
 use guen_runtime::ReportSection;
 
 use super::latex;
 
 /// What is not as it was.
-pub fn faults(report: &Report) -> Vec<String> {
+pub fn faults(report: &ReportLines) -> Vec<String> {
     let mut faults = Vec::new();
     let text = report.to_text();
     let page = report.to_page();
@@ -35,7 +35,7 @@ pub fn faults(report: &Report) -> Vec<String> {
 }
 
 /// The documents that a compiled report writes.
-fn documents(report: &Report) -> Vec<String> {
+fn documents(report: &ReportLines) -> Vec<String> {
     let leak = |lines: &[String]| -> &'static [&'static str] {
         let lines: Vec<&'static str> = lines.iter().map(|line| &*line.clone().leak()).collect();
         lines.leak()

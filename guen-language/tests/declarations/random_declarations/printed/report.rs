@@ -2,10 +2,10 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use guen_language::derive::{Derived, Level, derive};
+use guen_language::derive::{Derived, DerivedLevel, derive};
 use guen_language::diagnostics::collect;
 use guen_language::model::{FormKind, Model};
-use guen_language::report::{Report, Section};
+use guen_language::report::{ReportLines, Section};
 use guen_language::{emit, model, parse};
 use guen_symbolic::{ExprId, Role};
 
@@ -122,8 +122,8 @@ pub fn checked(text: &str, with_outline: bool) -> Option<Checked> {
     Some(all)
 }
 
-fn level_checked(model: &mut Model<'_>, level: &Level) -> Checked {
-    let report = Report::of(model, level);
+fn level_checked(model: &mut Model<'_>, level: &DerivedLevel) -> Checked {
+    let report = ReportLines::of(model, level);
     let pi = model.bench.graph.pi();
     let mut scope = scope(model, level);
     scope.add("pi", pi);
@@ -183,7 +183,7 @@ fn without_note<'a, 'b>(lines: &'a [&'b String]) -> (&'a [&'b String], usize) {
 const INTEGRABLE: &str = "integrable: ";
 
 /// The names of a level.
-fn scope(model: &Model<'_>, level: &Level) -> Scope {
+fn scope(model: &Model<'_>, level: &DerivedLevel) -> Scope {
     let mut scope = Scope::default();
     let graph = &model.bench.graph;
     let mechanics = &level.derivation.system;
@@ -214,7 +214,12 @@ fn unknown(model: &mut Model<'_>, scope: &mut Scope, name: &str) -> ExprId {
 }
 
 /// What the lines of a section have to say, in order; none for sections of words.
-fn expected(model: &mut Model<'_>, level: &Level, section: &Section, scope: &mut Scope) -> Option<Vec<Line>> {
+fn expected(
+    model: &mut Model<'_>,
+    level: &DerivedLevel,
+    section: &Section,
+    scope: &mut Scope,
+) -> Option<Vec<Line>> {
     let d = &level.derivation;
     let (system, l) = (&d.system, d.system.forms.degrees);
     let equation =

@@ -1,4 +1,4 @@
-//! The place of a run between two steps, and the functions that have fired there.
+//! The hybrid state of a run between two steps, and the functions that have fired there.
 
 use crate::hybrid::filled::filled;
 
@@ -56,9 +56,9 @@ impl<const C: usize, const S: usize> Fired<C, S> {
     }
 }
 
-/// A run between two steps: where it is and in which mode.
+/// The hybrid state of a run between two steps: its time, its state and its mode.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place<H, const N: usize, const W: usize, const C: usize, const S: usize> {
+pub(super) struct HybridState<H, const N: usize, const W: usize, const C: usize, const S: usize> {
     pub(super) t: f64,
     pub(super) state: [f64; N],
     pub(super) in_mode: InMode<H, N, W, C, S>,
