@@ -8,13 +8,10 @@ use super::jacobians::Jacobians;
 use super::level::DerivedLevel;
 use super::programs::extend;
 use super::selection::Selection;
+use super::thresholds::CARRIED_VARIABLE_COST;
 use crate::diagnostics::{Fault, Faults};
 use crate::model::Model;
 use crate::syntax::Name;
-
-/// The cost of a further variable for a stepper in each of its stages, in units of a multiplication: half of the
-/// coefficients of a stage, for methods of order 8.
-const STATE_COST: u64 = 6;
 
 /// The carried form of a level whose rates are given in several equal forms; what has none is reported at the word that
 /// asks for it.
@@ -47,7 +44,7 @@ pub(super) fn derive(
         let mut forms = vec![rates];
         extend(&mut model.bench, &mut forms);
         let cost = programs(model, &forms, None).functions[0].cost.weighted()
-            + STATE_COST * carried.functions.len() as u64;
+            + CARRIED_VARIABLE_COST * carried.functions.len() as u64;
         if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
             best = Some((cost, carried, forms));
         }

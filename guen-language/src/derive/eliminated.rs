@@ -13,13 +13,11 @@ use super::one_mode;
 use super::programs::{extend, programs};
 use super::readable::polish;
 use super::selection::{Selection, StateIndex};
+use super::thresholds::ELIMINATED_MODES;
 use super::{formulas, friction, function};
 use crate::diagnostics::collect;
 use crate::model::{self, ContactState, Contacts, Model, SceneEntry, SceneModes};
 use crate::syntax::{Declaration, Name, Scene};
-
-/// The modes of a scene above which all of them share one program.
-const MAX_ELIMINATED: usize = 4;
 
 /// Adds the rates of the modes of scenes with few modes, without switches, and with no constants fixed.
 pub(super) fn add(model: &mut Model<'_>, system: &DerivedLevel, scenes: &mut [DerivedLevel]) {
@@ -31,7 +29,7 @@ pub(super) fn add(model: &mut Model<'_>, system: &DerivedLevel, scenes: &mut [De
         let (Some(own), Some(whole)) = (level.contacts.clone(), &system.contacts) else { continue };
         let is_smooth = own.switches.is_empty() && own.branches.is_empty();
         let is_whole = entry.fixes.is_empty() && level.selection.held.is_empty();
-        if own.modes.len() > MAX_ELIMINATED || !is_smooth || !is_whole {
+        if own.modes.len() > ELIMINATED_MODES || !is_smooth || !is_whole {
             continue;
         }
         let mut eliminated = Vec::new();

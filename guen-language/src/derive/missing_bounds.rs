@@ -1,8 +1,9 @@
 //! Bounds that the declaration lacks and that would save operations: no form is divided by a constant without a bound.
 
-use guen_symbolic::{Derivation, MAX_WORK, Programs};
+use guen_symbolic::{Derivation, Programs};
 
 use super::programs::{extend, programs};
+use super::thresholds::REPEATED_DERIVATION;
 use super::{formulas, function};
 use crate::diagnostics::collect;
 use crate::model::{self, Model};
@@ -23,8 +24,6 @@ pub(super) fn missing_bounds(
     derivation: &Derivation,
     own: &Programs,
 ) -> Option<MissingBounds> {
-    /// The work of a derivation above which there is no second one.
-    const LARGEST_REPEATED: u64 = MAX_WORK / 4;
     let graph = &model.bench.graph;
     let symbols = graph.symbols_in(&derivation.frame.operators.unpromised);
     let missing = model.constants.iter().filter(|constant| {
@@ -34,7 +33,7 @@ pub(super) fn missing_bounds(
     if constants.is_empty() {
         return None;
     }
-    if graph.work() > LARGEST_REPEATED {
+    if graph.work() > REPEATED_DERIVATION {
         return Some(MissingBounds { constants, saved: None });
     }
     let saved = operations(own)?.checked_sub(with(model, &constants)?).filter(|saved| *saved > 0)?;

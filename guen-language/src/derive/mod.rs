@@ -32,6 +32,7 @@ mod series;
 mod source;
 mod supplied;
 mod switches;
+mod thresholds;
 
 use std::rc::Rc;
 

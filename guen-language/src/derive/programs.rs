@@ -6,31 +6,28 @@ use guen_symbolic::{
 
 use super::formulas::Quantity;
 use super::function;
+use super::thresholds::{PROMISING_FORM, SHARED_REACTIONS, WRITTEN_OUT_RATES};
 use crate::model::Model;
 
 /// Adds further forms of the first list of rates, and drops those that are too expensive to be looked at.
 pub(super) fn extend(bench: &mut Workbench, lists: &mut Vec<Vec<ExprId>>) {
-    // Beyond this estimate normal forms run into their limits, and only cost time.
-    const LARGEST_WRITTEN_OUT: u64 = 600;
     let mut estimates: Vec<u64> = lists.iter().map(|list| weighted_cost(&bench.graph, list)).collect();
     let best = (0..lists.len()).min_by_key(|i| estimates[*i]).unwrap_or_default();
-    if estimates[best] <= LARGEST_WRITTEN_OUT {
+    if estimates[best] <= WRITTEN_OUT_RATES {
         let limits = Limits::default();
         let written_out: Vec<ExprId> =
             lists[best].iter().map(|e| normal_form(&mut bench.graph, *e, &limits).unwrap_or(*e)).collect();
         estimates.insert(1, weighted_cost(&bench.graph, &written_out));
         lists.insert(1, written_out);
     }
-    // A form may come out cheaper although it looks more expensive, but hardly by more than half.
-    let most = 3 * estimates.iter().copied().min().unwrap_or_default() / 2;
+    let (times, of) = PROMISING_FORM;
+    let most = times * estimates.iter().copied().min().unwrap_or_default() / of;
     let mut estimate = estimates.into_iter();
     lists.retain(|_| estimate.next().is_some_and(|cost| cost <= most));
 }
 
 /// The code of the rates, given in several equal forms, and of everything else.
 pub(super) fn programs(bench: &mut Workbench, rates: &[Vec<ExprId>], quantities: &[Quantity]) -> Programs {
-    /// Reactions beyond this estimate get no program of their own.
-    const SHARED_REACTIONS: u64 = 1000;
     let quantity =
         |name: &str| quantities.iter().find(|(known, _)| *known == name).map(|(_, outputs)| outputs);
     // The covector is the reactions times the rows of their constraints: where they are large one program is made, and divided.

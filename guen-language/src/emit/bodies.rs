@@ -7,10 +7,11 @@ use guen_symbolic::{ExprId, SymbolId};
 use proc_macro2::{TokenStream, TokenTree};
 use quote::{format_ident, quote};
 
-use super::fields::{LONG_ARRAY, by_number};
+use super::fields::by_number;
 use super::formula::default_text;
 use super::layout::Layout;
 use super::text::tokens;
+use super::thresholds::LONG_ARRAY;
 use crate::derive::Subject;
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {

@@ -8,6 +8,7 @@ use std::fmt::Write;
 use guen_symbolic::{Function, Instruction, Multivariate, Operation, Rational, SymbolId, Value};
 
 use super::supplied::steps as steps_to;
+use super::thresholds::{ANGLE_STEPS, BLOCK_STATEMENTS, LONGEST_IN_PLACE, SPARSE_RESULTS};
 use super::unpacked::Unpacked;
 
 /// The name of the functions that the program supplies, a tuple.
@@ -45,7 +46,6 @@ pub(super) fn body(
     parts: Parts,
     length: impl Fn(&str) -> usize,
 ) -> String {
-    const BLOCK_STATEMENTS: usize = 100;
     let values = instructions.iter().flat_map(defined).map(|v| v.index() + 1).max().unwrap_or(0);
     let uses = uses(instructions, outputs, values);
     let loaded: Vec<String> = instructions.iter().filter_map(|step| load(step, loads)).collect();
@@ -120,11 +120,10 @@ pub(super) fn body(
 
 /// Results as an array: one by one, or where there are many and most are the same value, as in a sparse matrix, that value and the others.
 fn results(names: &[&str]) -> String {
-    const MANY: usize = 1_000;
     let mut text = String::new();
     // The first zero of a matrix is not far from its beginning.
     let common = names.iter().take(3).max_by_key(|name| names.iter().filter(|other| other == name).count());
-    if let Some(common) = common.filter(|_| names.len() > MANY) {
+    if let Some(common) = common.filter(|_| names.len() > SPARSE_RESULTS) {
         let others: Vec<(usize, &&str)> =
             names.iter().enumerate().filter(|(_, name)| *name != common).collect();
         if 4 * others.len() < names.len() {
@@ -251,8 +250,6 @@ fn needed(
     last: usize,
     absorbed: &[Option<(Value, Value)>],
 ) -> Option<Vec<usize>> {
-    /// An angle is a sum of a few terms; what is longer stays where it is.
-    const ANGLE_STEPS: usize = 6;
     let operands = |step: &Instruction| -> Vec<Value> {
         let factors = |v: Value| absorbed[v.index()].map(|(a, b)| [a, b]);
         step.operation
@@ -306,10 +303,6 @@ struct Writer {
     functions: usize,
     text: String,
 }
-
-/// The most characters of an expression that is written in place. A longer one gets a statement of its own, so that
-/// expressions nest a few levels deep.
-const LONGEST_IN_PLACE: usize = 48;
 
 impl Writer {
     /// Takes in a load, which needs no statement; tells whether it was one.

@@ -11,7 +11,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use crate::syntax::{Name, Path, Step};
-pub(super) use long_arrays::{Entry, LONG_ARRAY, by_number};
+pub(super) use long_arrays::{Entry, by_number};
 
 /// The fields of a struct whose values are a flat list.
 #[derive(Clone)]

@@ -5,6 +5,10 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::layout::Layout;
+use super::thresholds::{
+    CHECK_OVERHEAD, COMPARISON_COST, COUNTED_ROUNDING, SECOND_SYSTEM_COST, SECOND_SYSTEM_SINGULARITIES,
+    SINGULARITY_CHECK_OVERHEAD, STAGE_COST,
+};
 use crate::derive::{Subject, function};
 use crate::model::Model;
 
@@ -83,10 +87,6 @@ pub(super) struct CheckOperations {
 impl CheckOperations {
     /// Returns the costs of a level by itself.
     pub(super) fn of(subject: &Subject<'_, '_>, layout: &Layout) -> Self {
-        /// The cost of an operation whose rounding is counted, and of a function.
-        const ROUNDED: [u64; 2] = [4, 2];
-        /// The cost of the comparisons of a function that must not vanish, or of one that is carried.
-        const COMPARISON_COST: u64 = 20;
         let level = subject.level;
         let cost = |names: &[&str]| -> u64 {
             let programs = names.iter().filter_map(|name| level.program(name));
@@ -96,7 +96,7 @@ impl CheckOperations {
             level.program(name).map_or(0, |program| {
                 let OperationCount { sines, calls, .. } = program.cost;
                 let functions = OperationCount { sines, calls, ..Default::default() }.weighted();
-                let [of_operations, of_functions] = ROUNDED;
+                let [of_operations, of_functions] = COUNTED_ROUNDING;
                 of_operations * (program.cost.weighted() - functions) + of_functions * functions
             })
         };
@@ -118,24 +118,14 @@ impl CheckOperations {
 
     /// Returns the costs of a carried form and of the level that it is a form of, which is given a state of its own.
     pub(super) fn and(self, below: Self) -> Self {
-        /// The cost of checking a second system beside its operations, counted for the hoop.
-        const ANOTHER: CheckOperations = CheckOperations { all: 150, singularities: 40 };
         let singularities = self.singularities + below.singularities;
-        let another = if singularities > 0 { ANOTHER.singularities } else { 0 };
-        Self { all: self.all + below.all + ANOTHER.all, singularities: singularities + another }
+        let another = if singularities > 0 { SECOND_SYSTEM_SINGULARITIES } else { 0 };
+        Self { all: self.all + below.all + SECOND_SYSTEM_COST, singularities: singularities + another }
     }
 }
 
 /// The methods `check_cost` and `singularity_check_cost`: operations of checks in right-hand sides with what a stepper does for each.
 pub(super) fn prices(subject: &Subject<'_, '_>, layout: &Layout, checks: &CheckOperations) -> TokenStream {
-    /// The cost of a sum over stages, for each entry of the state.
-    const STAGE_COST: u64 = 4;
-    /// The cost of the calls, comparisons and copies of a check, whatever the system: counted for a particle without
-    /// forces, whose estimates of errors by RK8 have more operations than all of its right-hand sides.
-    const CHECK_OVERHEAD: u64 = 240;
-    /// The costs beside a check of singularities alone: counted for Appell's system in lanes, which is the most expensive
-    /// beside its right-hand side.
-    const SINGULARITY_CHECK_OVERHEAD: u64 = 120;
     let rhs = subject.level.program(function::RHS).map_or(0, |program| program.cost.weighted());
     let one = (rhs + STAGE_COST * layout.size as u64).max(1);
     let check = u32::try_from((checks.all + CHECK_OVERHEAD).div_ceil(one)).unwrap_or(u32::MAX);

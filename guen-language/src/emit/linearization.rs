@@ -11,6 +11,7 @@ use super::integrated;
 use super::layout::{Layout, inputs};
 use super::signatures::{self, Signature};
 use super::text::{cost, tokens};
+use super::thresholds::{CALLED_DIRECTIONS, SPARSE_RESULTS};
 use crate::derive::{Subject, function};
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
@@ -128,9 +129,8 @@ fn cells(pattern: &Pattern, rows: usize, size: usize, count: usize) -> TokenStre
     }
     // As text, which is quicker than tokens: a literal of arrays, which the compiler checks quicker than assignments.
     // Of a large sparse matrix the entries alone.
-    const MANY: usize = 1_000;
     let matrix = |name: &str, columns: Range<usize>| {
-        if rows * columns.len() > MANY && 4 * pattern.len() < rows * columns.len() {
+        if rows * columns.len() > SPARSE_RESULTS && 4 * pattern.len() < rows * columns.len() {
             let mut text = format!("let mut {name} = [[z; {}]; {rows}];", columns.len());
             for (k, (row, column)) in pattern.iter().enumerate() {
                 if columns.contains(column) {
@@ -161,8 +161,7 @@ fn cells(pattern: &Pattern, rows: usize, size: usize, count: usize) -> TokenStre
 /// more instance of the function, and the values beside the derivatives are computed once.
 fn by_duals(layout: &Layout, of: &Ident) -> (TokenStream, TokenStream) {
     let (size, count) = (layout.size, layout.inputs);
-    // The function is long. With fewer directions its operations would be compiled in line, see `Dual`: minutes of rustc's time.
-    const CALLED_DIRECTIONS: usize = 9;
+    // The function is long: its operations are to be called.
     let directions = (size + count).max(CALLED_DIRECTIONS);
     let dual = quote!(__guen::Dual<R, #directions>);
     let held = match count {

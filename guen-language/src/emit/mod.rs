@@ -36,6 +36,7 @@ mod signatures;
 mod source;
 mod supplied;
 mod text;
+mod thresholds;
 mod unpacked;
 mod uses;
 mod with_scalar;

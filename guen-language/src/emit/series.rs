@@ -14,6 +14,7 @@ use quote::quote;
 
 use super::code::{Loads, apply, call, number};
 use super::layout::Layout;
+use super::thresholds::BLOCK_STATEMENTS;
 use crate::derive::{Series, Subject};
 
 /// The trait `TaylorSeries` for what steppers integrate.
@@ -70,7 +71,6 @@ struct Statement {
 
 /// Statements in blocks that hand on what later ones need: see `code::body`.
 fn blocks(statements: &[Statement], needed: &[String]) -> String {
-    const BLOCK_STATEMENTS: usize = 100;
     if statements.len() <= BLOCK_STATEMENTS {
         return statements.iter().map(|statement| statement.text.as_str()).collect();
     }

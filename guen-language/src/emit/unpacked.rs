@@ -7,6 +7,8 @@
 use std::fmt::Write;
 use std::ops::Range;
 
+use super::thresholds::ELEMENTS_PER_INDEX;
+
 /// The arrays that a body takes apart, with flags of the elements that it needs.
 pub(super) struct Unpacked {
     arrays: Vec<(String, Vec<bool>)>,
@@ -76,9 +78,6 @@ fn is_worth_it(needed: &[bool]) -> bool {
     let count = needed.iter().filter(|needed| **needed).count();
     count * ELEMENTS_PER_INDEX >= needed.len() - longest_gap(needed).len()
 }
-
-/// The number of places of a pattern that cost as much as an index.
-const ELEMENTS_PER_INDEX: usize = 2;
 
 /// The array and the index of an element as it is written.
 pub(super) fn indexed(name: &str) -> Option<(&str, usize)> {

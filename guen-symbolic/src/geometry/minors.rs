@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use crate::algebra::{ExprId, Rational};
 use crate::workbench::Workbench;
 
-/// Matrices above this size are not inverted by their adjugate: blocks of forms are eliminated row by row then.
-pub(super) const ADJUGATE_SIZE: usize = 5;
+/// The size of matrices above which none is inverted by its adjugate: blocks of forms are eliminated row by row then, and blocks of
+/// equations without a pivot on the diagonal are not solved so. Minors are twice as many with each row.
+pub(crate) const ADJUGATE_SIZE: usize = 5;
 
 /// Adjugate and determinant by minors, each minor once.
 pub(crate) fn adjugate(bench: &mut Workbench, matrix: &[Vec<ExprId>]) -> (Vec<Vec<ExprId>>, ExprId) {

@@ -18,7 +18,7 @@ pub use dependence::SingularForms;
 pub(crate) use dependence::dependence;
 pub use forms::{Form, Forms};
 pub use independent::independent_rows;
-pub(crate) use minors::adjugate;
+pub(crate) use minors::{ADJUGATE_SIZE, adjugate};
 pub use operators::Operators;
 pub(crate) use operators::{MANY_COORDINATES, is_nested};
 pub use rates::{RateChoice, chosen_rates};

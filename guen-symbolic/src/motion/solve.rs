@@ -4,8 +4,8 @@ use super::cancellation;
 use super::restriction::written_out;
 use super::sparse::Vector;
 use crate::algebra::ExprId;
-use crate::geometry::adjugate;
-use crate::motion::thresholds::{ADJUGATE_BLOCK, BLOCK_WRITTEN_OUT};
+use crate::geometry::{ADJUGATE_SIZE, adjugate};
+use crate::motion::thresholds::BLOCK_WRITTEN_OUT;
 use crate::workbench::Workbench;
 use crate::zero::Verdict;
 
@@ -162,7 +162,7 @@ impl Solution {
         m: &[Vec<ExprId>],
         f: &[ExprId],
     ) -> Option<Vec<ExprId>> {
-        if m.len() > ADJUGATE_BLOCK {
+        if m.len() > ADJUGATE_SIZE {
             return None;
         }
         let (adjugate, determinant) = adjugate(bench, m);

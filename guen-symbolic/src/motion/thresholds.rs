@@ -93,8 +93,5 @@ pub(in crate::motion) const COMPONENTS_DIFFERENTIATED: u64 = 300;
 /// The size up to which blocks are solved without names for intermediate results.
 pub(in crate::motion) const BLOCK_WRITTEN_OUT: usize = 2;
 
-/// The size up to which blocks without a usable pivot on the diagonal are inverted by their adjugate.
-pub(in crate::motion) const ADJUGATE_BLOCK: usize = 5;
-
 /// The number of values at points beyond which no constant is tried: each may take one of every expression of the energy.
 pub(in crate::motion) const VALUES_AT_POINTS: usize = 400_000;

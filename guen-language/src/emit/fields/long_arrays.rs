@@ -6,6 +6,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::{Fields, Tree};
+use crate::emit::thresholds::LONG_ARRAY;
 
 /// A value of a struct, as code speaks of it; of a long array every entry at once, by the number `__guen_i` of the entry.
 pub(in crate::emit) struct Entry {
@@ -24,9 +25,6 @@ struct Group {
     /// The array that these are, where it is long.
     array: Option<Ident>,
 }
-
-/// The number of entries from which on code goes through an array, rather than to name its entries one by one.
-pub(in crate::emit) const LONG_ARRAY: usize = 25;
 
 impl Fields {
     /// The values in the order of the fields, long arrays together, except those with values that are told apart.
