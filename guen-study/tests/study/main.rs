@@ -5,8 +5,8 @@
 mod budget;
 #[path = "../files/cells.rs"]
 mod cells;
+mod forecasts;
 mod kicks;
-mod promises;
 mod spreadsheet;
 mod systems;
 mod uncertain_errors;

@@ -4,8 +4,8 @@ use guen_runtime::{Equations, Real};
 
 use crate::Oscillator;
 use crate::budget::Slow;
+use crate::forecasts::Two;
 use crate::kicks::Kicked;
-use crate::promises::Two;
 use crate::uncertain_errors::{Free, Spring};
 
 /// A system of one variable.

@@ -2,7 +2,7 @@
 //! from other states. The former rule, a comparison of two runs in doubles alone, is counted beside.
 //!
 //! ```text
-//! GUEN_PROMISES=20 cargo test --release -p guen-study --features study --test study promises -- --nocapture
+//! GUEN_PROMISES=20 cargo test --release -p guen-study --features study --test study forecasts -- --nocapture
 //! ```
 
 use std::ops::Range;
