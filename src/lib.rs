@@ -53,8 +53,8 @@
 
 pub use guen_runtime::{
     Actuated, Approx7, Approx7Functions, Approx13, Approx13Functions, AuxiliaryStates, Bodies, Body,
-    BodyFault, Catastatic, Cause, Class, Coefficient, Commutator, Conservative, ConstantsError, Coordinate,
-    Cost, Derived, Differentiable, Displacement, Dual, Equations, Function, Functions, Fused,
+    BodyFault, Catastatic, Cause, CheckCosts, Class, Coefficient, Commutator, Conservative, ConstantsError,
+    Coordinate, Cost, Derived, Differentiable, Displacement, Dual, Equations, Function, Functions, Fused,
     FusedOperations, Generic, Grid, Holonomic, IncompleteLieGroup, InputLaw, InputRecords, InputValues,
     IntegrationError, Invariants, Kernel, KernelMethod, LaneScalar, Laned, LatexDocument, Level, LevelInfo,
     Levels, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputMap, Positions,
@@ -209,14 +209,15 @@ pub mod __private {
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
-        Actuated, AuxiliaryStates, Bodies, Body, Catastatic, Class, Coefficient, Coefficients, Conservative,
-        ConstantsError, Convolutions, Cost, Derived, Differentiable, Displacement, DrivenSeries, Dual,
-        EachLane, EntryNames, HIGHEST_ORDER, Hoisted, Holonomic, IncompleteLieGroup, InputLaw, InputRecords,
-        Instances, Invariants, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable,
-        Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, OutputMap, Positions,
-        PositionsError, PreparedValues, Real, Report, ReportSection, Rheonomic, RunningError, Scleronomic,
-        Shape, Simulate, Smooth, Source, Sourced, System, TaylorSeries, Unprepared, WithInputs, WithScalar,
-        entries, linearized, maximum, minimum, nalgebra_conversions, seeded, select,
+        Actuated, AuxiliaryStates, Bodies, Body, Catastatic, CheckCosts, Class, Coefficient, Coefficients,
+        Conservative, ConstantsError, Convolutions, Cost, Derived, Differentiable, Displacement,
+        DrivenSeries, Dual, EachLane, EntryNames, HIGHEST_ORDER, Hoisted, Holonomic, IncompleteLieGroup,
+        InputLaw, InputRecords, Instances, Invariants, Laned, Level, LevelInfo, Levels, LieGroup, Lift,
+        Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
+        OutputLinearization, OutputMap, Positions, PositionsError, PreparedValues, Real, Report,
+        ReportSection, Rheonomic, RunningError, Scleronomic, Shape, Simulate, Smooth, Source, Sourced,
+        System, TaylorSeries, Unprepared, WithInputs, WithScalar, entries, linearized, maximum, minimum,
+        nalgebra_conversions, seeded, select,
     };
     pub use guen_runtime::{
         actuated, condition, conserved, contact_mode, contact_states, differentiable, domain, dynamics,

@@ -91,6 +91,7 @@ pub use system::actuated::{Actuated, WithInputs};
 pub use system::auxiliary_states::{AuxiliaryStates, Renormalized, renormalized};
 pub use system::bodies::{Bodies, Body};
 pub use system::bracket::Coefficient;
+pub use system::check_costs::CheckCosts;
 pub use system::classification::{
     Catastatic, Class, Conservative, Holonomic, IncompleteLieGroup, LieGroup, Nonholonomic, Rheonomic,
     Scleronomic,

@@ -123,8 +123,8 @@ impl System<f64, 2> for Swing {
         1
     }
 
-    fn singularity_check_cost(&self) -> f64 {
-        self.cost
+    fn check_costs(&self) -> guen::CheckCosts {
+        guen::CheckCosts { singularities: self.cost, ..Default::default() }
     }
 }
 

@@ -273,7 +273,7 @@ fn systems(
             }
         }
     });
-    let prices = integrated::prices(subject, layout, &checks);
+    let check_costs = integrated::check_costs(subject, layout, &checks);
     let restored = integrated::restored(subject, layout);
     let modes = integrated::through_modes(subject);
     let differentiable = integrated::differentiable(layout, false);
@@ -318,7 +318,7 @@ fn systems(
                 __guen::System::condition(&#below, t, &Prepared::variables(state))
             }
 
-            #prices
+            #check_costs
         }
         #differentiable
         __guen::linearizable!(#size, #count; by duals #modes);

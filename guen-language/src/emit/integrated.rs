@@ -45,7 +45,7 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
             }
         }
     });
-    let prices = prices(subject, layout, &CheckOperations::of(subject, layout));
+    let check_costs = check_costs(subject, layout, &CheckOperations::of(subject, layout));
     let restored = restored(subject, layout);
     quote! {
         #restored
@@ -54,7 +54,7 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
         #switches
 
         #condition
-        #prices
+        #check_costs
     }
 }
 
@@ -124,26 +124,25 @@ impl CheckOperations {
     }
 }
 
-/// The methods `check_cost` and `singularity_check_cost`: operations of checks in right-hand sides with what a stepper does for each.
-pub(super) fn prices(subject: &Subject<'_, '_>, layout: &Layout, checks: &CheckOperations) -> TokenStream {
+/// The method `check_costs`: operations of checks in right-hand sides with what a stepper does for each.
+pub(super) fn check_costs(
+    subject: &Subject<'_, '_>,
+    layout: &Layout,
+    checks: &CheckOperations,
+) -> TokenStream {
     let rhs = subject.level.program(function::RHS).map_or(0, |program| program.cost.weighted());
     let one = (rhs + STAGE_COST * layout.size as u64).max(1);
-    let check = u32::try_from((checks.all + CHECK_OVERHEAD).div_ceil(one)).unwrap_or(u32::MAX);
-    let singularities = (checks.singularities > 0).then(|| {
-        // In hundredths, which are enough. As one number a lint of the user's may take them for pi.
-        let hundredths = ((checks.singularities + SINGULARITY_CHECK_OVERHEAD) * 100).div_ceil(one) as f64;
-        quote! {
-            fn singularity_check_cost(&self) -> f64 {
-                #hundredths / 100.0
-            }
-        }
-    });
+    let short = |cost: u64| u32::try_from(cost).unwrap_or(u32::MAX);
+    let all = short((checks.all + CHECK_OVERHEAD).div_ceil(one));
+    // In hundredths, which are enough.
+    let hundredths = match checks.singularities {
+        0 => 0,
+        singularities => short(((singularities + SINGULARITY_CHECK_OVERHEAD) * 100).div_ceil(one)),
+    };
     quote! {
-        fn check_cost(&self) -> u32 {
-            #check
+        fn check_costs(&self) -> __guen::CheckCosts {
+            __guen::CheckCosts::of(#all, #hundredths)
         }
-
-        #singularities
     }
 }
 

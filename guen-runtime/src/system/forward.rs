@@ -54,13 +54,8 @@ macro_rules! forward {
         }
 
         #[inline]
-        fn check_cost(&$self) -> u32 {
-            $inner.check_cost()
-        }
-
-        #[inline]
-        fn singularity_check_cost(&$self) -> f64 {
-            $inner.singularity_check_cost()
+        fn check_costs(&$self) -> $crate::system::check_costs::CheckCosts {
+            $inner.check_costs()
         }
     };
     (@ $self:ident, $inner:expr, |$t:ident, $state:ident| $here:expr; Differentiable<$R:ty, $N:ident>) => {

@@ -4,6 +4,7 @@ pub(crate) mod actuated;
 pub(crate) mod auxiliary_states;
 pub(crate) mod bodies;
 pub(crate) mod bracket;
+pub(crate) mod check_costs;
 pub(crate) mod classification;
 pub(crate) mod constants_error;
 pub(crate) mod differentiable;
@@ -27,6 +28,7 @@ pub(crate) mod with_scalar;
 use crate::numbers::lanes::Lanes;
 use crate::numbers::real::Real;
 use crate::numbers::running_error::RunningError;
+use crate::system::check_costs::CheckCosts;
 use crate::system::forward::forward;
 use crate::system::invariants::Invariants;
 use crate::system::positions_error::PositionsError;
@@ -134,20 +136,12 @@ pub trait System<R: Real, const N: usize> {
         R::one()
     }
 
-    /// The cost of [`conserved`](System::conserved), [`singularities`](System::singularities) and
-    /// [`condition`](System::condition) of one state together, in evaluations of the right-hand side. Guards check
-    /// expensive systems less often. Two, unless a system says more; generated systems count their operations.
+    /// The costs of [`conserved`](System::conserved), [`singularities`](System::singularities) and
+    /// [`condition`](System::condition), by which a guard decides how often it checks. Those of
+    /// [`CheckCosts::default`], unless a system says more; generated systems count their operations.
     #[inline]
-    fn check_cost(&self) -> u32 {
-        2
-    }
-
-    /// The cost of [`singularities`](System::singularities) of one state, in evaluations of the right-hand side, with
-    /// what a guard makes of them: next to fixed steps it asks for them more often than for the rest. Nothing, unless
-    /// a system says more; generated systems count their operations.
-    #[inline]
-    fn singularity_check_cost(&self) -> f64 {
-        0.0
+    fn check_costs(&self) -> CheckCosts {
+        CheckCosts::default()
     }
 }
 

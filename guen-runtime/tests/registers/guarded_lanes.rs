@@ -3,7 +3,7 @@
 use guen_runtime::lanes::{Backend, LaneTask, Lanes, Mask, Width, dispatch_on};
 use guen_runtime::prelude::*;
 use guen_runtime::steppers::InLanes;
-use guen_runtime::{Invariants, RunningError, Setting, checks};
+use guen_runtime::{CheckCosts, Invariants, RunningError, Setting, checks};
 
 /// Something to go wrong in every way that a guard knows, by the first entry of the state, which says how much of it there is.
 trait Faulty {
@@ -76,8 +76,8 @@ impl<R: Real> System<R, 3> for Fault {
         as_type!(self, F => F::condition(state))
     }
 
-    fn singularity_check_cost(&self) -> f64 {
-        as_type!(self, F => F::PRICE)
+    fn check_costs(&self) -> CheckCosts {
+        CheckCosts { singularities: as_type!(self, F => F::PRICE), ..CheckCosts::default() }
     }
 }
 

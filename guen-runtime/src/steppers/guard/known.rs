@@ -11,6 +11,7 @@ use crate::steppers::guard::Guard;
 use crate::steppers::guard::defect::{Defects, Worst, worst};
 use crate::steppers::guard::runs::Runs;
 use crate::system::System;
+use crate::system::check_costs::CheckCosts;
 use crate::system::invariants::Invariants;
 
 /// The number of functions that are watched; further ones are not.
@@ -29,8 +30,8 @@ type Functions<R> = [RunningError<R>; MAX_SINGULARITIES];
 /// A system as a guard asks it: all at once, so that expressions that a check has in common are computed once, however the system is
 /// referred to.
 pub(in crate::steppers) trait Watched<R: Real, const N: usize> {
-    /// The prices of a check of everything and of one of the functions that must not vanish.
-    fn prices(&self) -> (u32, f64);
+    /// The costs of a check.
+    fn costs(&self) -> CheckCosts;
 
     /// The invariants and the condition, and the functions that must not vanish as of [`functions`](Watched::functions), with their number.
     fn everything(
@@ -54,8 +55,8 @@ pub(in crate::steppers) struct Found<R> {
 }
 
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Watched<R, N> for S {
-    fn prices(&self) -> (u32, f64) {
-        (self.check_cost(), self.singularity_check_cost())
+    fn costs(&self) -> CheckCosts {
+        self.check_costs()
     }
 
     #[inline]

@@ -1,6 +1,8 @@
 //! The schedule of a guard: checks are as far apart as their cost asks for, so that they take less than three
 //! hundredths of a run.
 
+use crate::system::check_costs::CheckCosts;
+
 /// The number of right-hand sides until the sizes of entries are known.
 const EVALUATIONS_UNTIL_SIZES: u32 = 160;
 /// The number of right-hand sides of fixed steps from one check to the next, at least: beside rates that are cheap, what is done for
@@ -32,12 +34,10 @@ pub(in crate::steppers) struct Schedule {
 
 impl Schedule {
     /// Creates the schedule of a method that evaluates so often in a step, `fixed` if of a fixed length, and a system
-    /// with these costs of checks: [`check_cost`](crate::System::check_cost) and
-    /// [`singularity_check_cost`](crate::System::singularity_check_cost). `chosen` is the number of steps between two
-    /// checks that somebody has set.
+    /// with these costs of checks. `chosen` is the number of steps between two checks that somebody has set.
     pub(super) fn new(
         evaluations: u32,
-        (check, singularities): (u32, f64),
+        CheckCosts { all, singularities }: CheckCosts,
         fixed: bool,
         chosen: Option<u32>,
     ) -> Self {
@@ -55,7 +55,7 @@ impl Schedule {
             } else {
                 young
             };
-            let every = young.max(in_steps(COSTS_BETWEEN_CHECKS * f64::from(check)));
+            let every = young.max(in_steps(COSTS_BETWEEN_CHECKS * f64::from(all)));
             return Self { young, singularities: between, every };
         }
         // Before the step and after it; NaN is no price.
@@ -66,7 +66,7 @@ impl Schedule {
         // What singularities leave; of an infinite price a fiftieth is spent.
         let left =
             (1.0 / COSTS_TOGETHER - spent).max(1.0 / COSTS_TOGETHER - 1.0 / COSTS_BETWEEN_SINGULARITIES);
-        let [least, most] = COST_OF_A_DEFECT.map(|estimate| f64::from(check) + estimate);
+        let [least, most] = COST_OF_A_DEFECT.map(|estimate| f64::from(all) + estimate);
         let every = f64::max(COSTS_BETWEEN_CHECKS * most, least / left);
         let every = between.max(in_steps(every));
         // A check of everything includes the singularities.
@@ -91,7 +91,11 @@ impl Schedule {
 
 #[cfg(test)]
 mod tests {
-    use super::Schedule;
+    use super::{CheckCosts, Schedule};
+
+    fn costs(all: u32, singularities: f64) -> CheckCosts {
+        CheckCosts { all, singularities }
+    }
 
     #[test]
     fn checks_take_less_than_three_hundredths_of_a_run() {
@@ -100,7 +104,7 @@ mod tests {
                 for singularities in [0.0, 0.1, 1.0, 2.5, 40.0] {
                     let of = f64::from(evaluations);
                     let Schedule { singularities: between, every, .. } =
-                        Schedule::new(evaluations, (check, singularities), true, None);
+                        Schedule::new(evaluations, costs(check, singularities), true, None);
                     let (between, every) = (f64::from(between) * of, f64::from(every) * of);
                     // Rounded down to whole steps, in the worst case a part of thirteen.
                     let most = 1.08 / 34.0;
@@ -121,7 +125,7 @@ mod tests {
                             || price / alone + 2.0 * singularities / between > 0.9 / 34.0
                             || alone <= least
                     );
-                    let free = Schedule::new(evaluations, (check, singularities), false, None);
+                    let free = Schedule::new(evaluations, costs(check, singularities), false, None);
                     assert!(f64::from(free.every) * of <= every);
                     assert!(
                         free.singularities == 1
@@ -164,15 +168,15 @@ mod tests {
 
     #[test]
     fn what_is_chosen_is_done_and_no_price_breaks_it() {
-        let chosen = Schedule::new(4, (7, 2.0), true, Some(0));
+        let chosen = Schedule::new(4, costs(7, 2.0), true, Some(0));
         assert_eq!(chosen, Schedule { young: 40, singularities: u32::MAX, every: 1 });
         // RK4 with a check of two right-hand sides: every 40 times twelve of them, singularities every 224.
-        let usual = Schedule::new(4, (2, 0.0), true, None);
+        let usual = Schedule::new(4, costs(2, 0.0), true, None);
         assert_eq!(usual, Schedule { young: 40, singularities: 56, every: 120 });
         for price in [f64::NAN, -1.0] {
-            assert_eq!(Schedule::new(4, (2, price), true, None), usual);
+            assert_eq!(Schedule::new(4, costs(2, price), true, None), usual);
         }
-        let dear = Schedule::new(0, (u32::MAX, f64::INFINITY), true, None);
+        let dear = Schedule::new(0, costs(u32::MAX, f64::INFINITY), true, None);
         assert_eq!((dear.singularities, dear.every), (u32::MAX, u32::MAX));
     }
 }

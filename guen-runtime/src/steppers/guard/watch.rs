@@ -53,7 +53,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
         S: Watched<R, N> + ?Sized,
     {
         let Schedule { young, singularities, every } =
-            Schedule::new(evaluations, system.prices(), fixed, guard.every);
+            Schedule::new(evaluations, system.costs(), fixed, guard.every);
         let first = if every == u32::MAX { every } else { 1 };
         Self {
             guard: guard.for_real::<R>(),
