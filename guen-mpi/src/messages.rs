@@ -12,8 +12,8 @@ use mpi::traits::{Destination, Source};
 use mpi::{Rank, Tag};
 
 /// The pauses between two looks, while nothing comes: twice as long each time.
-const SHORTEST: Duration = Duration::from_micros(20);
-const LONGEST: Duration = Duration::from_micros(500);
+const SHORTEST_PAUSE: Duration = Duration::from_micros(20);
+const LONGEST_PAUSE: Duration = Duration::from_micros(500);
 
 /// A message of rank 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -139,18 +139,18 @@ pub(crate) struct Patience(Duration);
 
 impl Patience {
     pub(crate) fn new() -> Self {
-        Self(SHORTEST)
+        Self(SHORTEST_PAUSE)
     }
 
     /// Something has come: more may follow soon.
     pub(crate) fn renew(&mut self) {
-        self.0 = SHORTEST;
+        self.0 = SHORTEST_PAUSE;
     }
 
     /// Returns the pause, and makes the next one longer.
     pub(crate) fn pause(&mut self) -> Duration {
         let pause = self.0;
-        self.0 = LONGEST.min(2 * pause);
+        self.0 = LONGEST_PAUSE.min(2 * pause);
         pause
     }
 }
@@ -191,9 +191,9 @@ mod tests {
     fn pauses_grow_until_something_comes() {
         let mut patience = Patience::new();
         let pauses: Vec<Duration> = (0..8).map(|_| patience.pause()).collect();
-        assert_eq!((pauses[0], pauses[7]), (SHORTEST, LONGEST));
+        assert_eq!((pauses[0], pauses[7]), (SHORTEST_PAUSE, LONGEST_PAUSE));
         assert!(pauses.is_sorted());
         patience.renew();
-        assert_eq!(patience.pause(), SHORTEST);
+        assert_eq!(patience.pause(), SHORTEST_PAUSE);
     }
 }

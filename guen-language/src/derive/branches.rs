@@ -58,7 +58,9 @@ impl Held {
                 return graph.sub(one, branch.symbol);
             }
         }
-        let text = graph.text_limited(function, LONGEST).unwrap_or_else(|| "a switching function".to_owned());
+        let text = graph
+            .text_limited(function, SWITCH_CHARACTERS)
+            .unwrap_or_else(|| "a switching function".to_owned());
         let symbol = graph.symbol(&format!("branch of {text}"), Role::Input);
         self.branches.push(Branch { symbol, function, text });
         symbol
@@ -105,4 +107,4 @@ impl Held {
 }
 
 /// The most characters of a switching function in a text.
-const LONGEST: usize = 60;
+const SWITCH_CHARACTERS: usize = 60;

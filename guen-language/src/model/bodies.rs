@@ -130,7 +130,7 @@ impl Evaluator<'_> {
 /// integral of `r r^T dm`, has a negative principal minor.
 pub(super) fn is_no_inertia(graph: &Graph, entries: &[ExprId; 6]) -> bool {
     /// Limits are meant to be reached: what is below them by this part of the trace is rounding.
-    const ROUNDING: f64 = 1e-14;
+    const TRACE_ROUNDING: f64 = 1e-14;
     let numbers: Option<Vec<f64>> = entries.iter().map(|e| Some(graph.as_number(*e)?.to_f64())).collect();
     let Some([xx, yy, zz, xy, yz, zx]) = numbers.as_deref() else { return false };
     let half = (xx + yy + zz) / 2.0;
@@ -141,7 +141,9 @@ pub(super) fn is_no_inertia(graph: &Graph, entries: &[ExprId; 6]) -> bool {
     let [a, b, c] = [xx, yy, zz].map(|moment| (half - moment) / scale);
     let [d, e, f] = [xy, yz, zx].map(|product| -product / scale);
     let determinant = a * b * c + 2.0 * d * e * f - a * e * e - b * f * f - c * d * d;
-    [a, b, c, a * b - d * d, b * c - e * e, c * a - f * f, determinant].iter().any(|minor| *minor < -ROUNDING)
+    [a, b, c, a * b - d * d, b * c - e * e, c * a - f * f, determinant]
+        .iter()
+        .any(|minor| *minor < -TRACE_ROUNDING)
 }
 
 /// Whether an angular velocity, in body axes, has more than one direction.

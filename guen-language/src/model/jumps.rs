@@ -79,11 +79,11 @@ impl Evaluator<'_> {
         let graph = &mut self.bench.graph;
         match switch {
             Switch::Whole(x) => graph
-                .text_limited(x, LONGEST)
+                .text_limited(x, FUNCTION_CHARACTERS)
                 .map_or(String::new(), |text| format!(" where `{text}` is a whole number")),
             Switch::Zero(e) => {
                 let opposite = graph.neg(e);
-                let texts = [e, opposite].map(|e| graph.text_limited(e, LONGEST));
+                let texts = [e, opposite].map(|e| graph.text_limited(e, FUNCTION_CHARACTERS));
                 let found = texts.into_iter().flatten().min_by_key(|text| text.starts_with('-'));
                 found.map_or(String::new(), |text| format!(" where `{text} = 0`"))
             }
@@ -92,7 +92,7 @@ impl Evaluator<'_> {
 }
 
 /// The most characters of a function in a message.
-const LONGEST: usize = 60;
+const FUNCTION_CHARACTERS: usize = 60;
 
 /// The places where a piecewise function changes its branch.
 #[derive(Clone, Copy)]

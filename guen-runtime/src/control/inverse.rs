@@ -278,7 +278,7 @@ impl<R: Ordered, const L: usize, const M: usize> Gap<R, L, M> {
         basis.add_all(M, |j| columns.get(j).copied(), INDEPENDENT * longest);
         let rank = basis.count;
         let left = largest(columns.iter().map(|column| length(&basis.remainder(column))));
-        let complete = left <= ROUNDINGS * R::epsilon().to_f64() * longest;
+        let complete = left <= FORCE_ROUNDINGS * R::epsilon().to_f64() * longest;
         // R_kj = q_k . column j, and S = R R^T with ones behind its rank.
         let r: [[R; M]; L] =
             core::array::from_fn(|k| core::array::from_fn(|j| dot(&basis.vectors[k], &columns[j])));
@@ -298,7 +298,7 @@ impl<R: Ordered, const L: usize, const M: usize> Gap<R, L, M> {
 }
 
 /// Roundings that the generalised forces may be off by.
-const ROUNDINGS: f64 = 1e3;
+const FORCE_ROUNDINGS: f64 = 1e3;
 
 /// Newton's method from one start.
 fn newton<R: Ordered, const L: usize, const M: usize>(
@@ -307,25 +307,25 @@ fn newton<R: Ordered, const L: usize, const M: usize>(
     start: [R; M],
 ) -> Result<[R; M], Stuck> {
     /// Newton's method doubles the digits; at a root where the derivative vanishes it halves the error.
-    const STEPS: usize = 60;
+    const NEWTON_STEPS: usize = 60;
     /// The number of times that a step is halved.
-    const HALVINGS: u32 = 12;
+    const STEP_HALVINGS: u32 = 12;
 
     let mut inputs = start;
     let mut stuck = Stuck { residual: f64::INFINITY, rank: 0, starts: 0, closest: 0, complete: false };
     let mut here = Gap::new(&form(&inputs), accelerations, &inputs);
-    for _ in 0..STEPS {
+    for _ in 0..NEWTON_STEPS {
         if !here.is_finite() {
             break;
         }
-        if here.size <= ROUNDINGS * R::epsilon().to_f64() * here.scale {
+        if here.size <= FORCE_ROUNDINGS * R::epsilon().to_f64() * here.scale {
             return Ok(inputs);
         }
         stuck.residual = here.size;
         let Some((change, rank, complete)) = here.change() else { break };
         (stuck.rank, stuck.complete) = (rank, complete);
         let mut part = R::one();
-        let next = (0..HALVINGS).find_map(|_| {
+        let next = (0..STEP_HALVINGS).find_map(|_| {
             let moved: [R; M] = core::array::from_fn(|j| inputs[j] + part * change[j]);
             let there = Gap::new(&form(&moved), accelerations, &moved);
             part *= R::from_ratio(1, 2);

@@ -159,11 +159,11 @@ pub fn steady<R: Ordered, S, const N: usize, const M: usize>(
 where
     S: Linearizable<R, N, M> + ?Sized,
 {
-    const STEPS: usize = 100;
-    const HALVINGS: usize = 30;
+    const NEWTON_STEPS: usize = 100;
+    const STEP_HALVINGS: usize = 30;
     const INDEPENDENT: f64 = 1e-9;
     /// Roundings of the largest rate, in units of what the linearisation makes of the state, that count as none.
-    const ROUNDINGS: f64 = 1e3;
+    const RATE_ROUNDINGS: f64 = 1e3;
 
     let open = |j: usize| {
         if j < N { !request.drifting[j] && !request.fixed_states[j] } else { !request.fixed_inputs[j - N] }
@@ -181,7 +181,7 @@ where
     let precision = R::epsilon().sqrt().to_f64();
     let (mut s, mut u) = (*state, *inputs);
     let mut r = rates(&s, &u);
-    for _ in 0..STEPS {
+    for _ in 0..NEWTON_STEPS {
         let linear = system.linearization(t, &s, &u);
         let (by_state, by_input) = (transpose(&linear.a), transpose(&linear.b));
         let column = |j: usize| {
@@ -230,7 +230,7 @@ where
             if residual.is_nan() {
                 return Err(SteadyError::NotFinite);
             }
-            if residual > ROUNDINGS * precision * precision * (scale * extent).max(1.0) {
+            if residual > RATE_ROUNDINGS * precision * precision * (scale * extent).max(1.0) {
                 return Err(SteadyError::NotFound { residual });
             }
             if unknowns > rank {
@@ -240,7 +240,7 @@ where
         }
         let mut factor = R::one();
         let mut accepted = None;
-        for _ in 0..HALVINGS {
+        for _ in 0..STEP_HALVINGS {
             let (trial_s, trial_u) = moved(factor);
             let trial = rates(&trial_s, &trial_u);
             let new = length(&trial).to_f64();

@@ -29,10 +29,10 @@ impl<'a, I, const N: usize> Sampler<'a, I, N> {
     /// The time of the next sample of a run: not summed up, hence without drift. None at the end, within roundings.
     pub(super) fn next(&self, (start, end): (f64, f64)) -> Option<f64> {
         /// Roundings of a span within which a sample is at its end.
-        const ROUNDINGS: f64 = 4.0;
+        const SAMPLE_ROUNDINGS: f64 = 4.0;
 
         let time = start + self.samples as f64 * self.period;
-        let slack = ROUNDINGS * f64::EPSILON * f64::max(time.abs(), end.abs());
+        let slack = SAMPLE_ROUNDINGS * f64::EPSILON * f64::max(time.abs(), end.abs());
         (time < end - slack).then_some(time)
     }
 

@@ -39,7 +39,7 @@ pub(super) fn added<R: Real, const W: usize>(responses: &[R; W], reactions: &[R;
 }
 
 /// Steps from one pattern of signs to the next.
-const STEPS: usize = 64;
+const SIGN_PATTERNS: usize = 64;
 
 /// The magnitudes `f = |free + coupling f|` of the loads of what slips, zero elsewhere; not a number where none was found.
 ///
@@ -53,7 +53,7 @@ pub(super) fn magnitudes<R: Real, const C: usize>(
     let (zero, one) = (R::zero(), R::one());
     let mut signs: [R; C] = filled(|c| if slips[c] { free[c].where_above(zero, one, -one) } else { zero });
     let mut found = [zero; C];
-    for _ in 0..STEPS {
+    for _ in 0..SIGN_PATTERNS {
         let right = filled(|c| signs[c] * free[c]);
         (found, _) = solved(matrix(coupling, &signs), right);
         let Some(c) = (0..C).find(|&c| slips[c] && most(-found[c]) > 0.0) else { return found };

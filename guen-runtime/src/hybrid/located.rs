@@ -28,7 +28,7 @@ pub(super) enum Does {
 }
 
 /// The number of times that a part is halved in search of a place at which a function is positive.
-const HALVINGS: u32 = 50;
+const PART_HALVINGS: u32 = 50;
 /// The part of a step within which a touch is the one before.
 const AGAIN: f64 = 1e-7;
 /// The parts of a step at whose ends functions are looked at.
@@ -164,7 +164,7 @@ where
             (from, to) = (self.top_before(function, a), (a, high));
         } else if high <= 0.0 {
             // It leaves zero here, and comes back.
-            let mut parts = (1..=HALVINGS).map(|k| a + (b - a) * libm::exp2(-f64::from(k)));
+            let mut parts = (1..=PART_HALVINGS).map(|k| a + (b - a) * libm::exp2(-f64::from(k)));
             if let Some(found) = parts.find_map(|t| {
                 let value = self.value(function, t);
                 (value > 0.0).then_some((t, value))
@@ -199,7 +199,7 @@ where
         if low > 0.0 || self.side(function, b) >= 0 {
             return None;
         }
-        let mut parts = (1..=HALVINGS).map(|k| a + (b - a) * libm::exp2(-f64::from(k)));
+        let mut parts = (1..=PART_HALVINGS).map(|k| a + (b - a) * libm::exp2(-f64::from(k)));
         let (above, high) = parts.find_map(|t| {
             let value = self.value(function, t);
             self.has_left(function, (t, value)).then_some((t, value))

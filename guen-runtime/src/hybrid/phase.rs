@@ -95,7 +95,7 @@ const MAX_COMBINATIONS: usize = 1 << 17;
 /// Parts of a turn in which directions of spatial slip are looked for.
 const DIRECTIONS: usize = 180;
 /// The violation of an inequality, relative to the rates before and to impulses that stop them, that is rounding.
-const ROUNDING: f64 = 1e-11;
+const VIOLATION_ROUNDING: f64 = 1e-11;
 /// The difference of rates, relative to those before, by which two solutions are two.
 const DIFFERENT: f64 = 1e-7;
 
@@ -141,7 +141,7 @@ impl<const W: usize, const C: usize> Phase<'_, f64, W, C> {
         }
         let mut judge = |solved: &Solved<f64, W, C>| {
             let violation = self.violation(solved, self.scale);
-            if violation <= ROUNDING {
+            if violation <= VIOLATION_ROUNDING {
                 visit(solved, violation);
             }
         };

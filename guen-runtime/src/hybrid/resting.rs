@@ -11,7 +11,7 @@ use crate::hybrid::mode::{ElementState, Mode};
 use crate::hybrid::select::{Known, Rate, Unselected, select};
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::transition::TransitionKind;
-use crate::hybrid::vanishing::ROUNDING;
+use crate::hybrid::vanishing::VANISHING_ROUNDING;
 use crate::numbers::running_error::RunningError;
 
 /// The impacts of late, as far as the end of a sequence is judged by them.
@@ -92,7 +92,7 @@ where
         let state = self.state.map(RunningError::once);
         let time = RunningError::once(self.t);
         let free = self.in_mode.system.free_motion(time, &state, &switches, &[exact(0.0); C]);
-        free.gaps.map(|gap| ROUNDING * gap.error)
+        free.gaps.map(|gap| VANISHING_ROUNDING * gap.error)
     }
 
     /// Closes a sequence of impacts early, where the rebound is slow enough: the impact becomes the one that closes.

@@ -9,7 +9,7 @@ use crate::hybrid::in_mode::{InMode, motion_series};
 use crate::hybrid::mode::{ElementState, Mode};
 use crate::hybrid::mode_rows::Leaning;
 use crate::hybrid::system::HybridSystem;
-use crate::hybrid::vanishing::{ROUNDING, VANISHING, is_rounding, vanishes, vanishes_within};
+use crate::hybrid::vanishing::{VANISHING, VANISHING_ROUNDING, is_rounding, vanishes, vanishes_within};
 use crate::numbers::power_series::PowerSeries;
 use crate::numbers::running_error::RunningError;
 
@@ -162,7 +162,7 @@ where
     if contradicted <= VIOLATED {
         return first;
     }
-    match within(ROUNDING) {
+    match within(VANISHING_ROUNDING) {
         Ok(mode) if violation(&mode) < contradicted => Ok(mode),
         _ => first,
     }
@@ -394,7 +394,7 @@ where
         H: Clone,
     {
         /// Iterations for the direction, and the change that is none.
-        const ITERATIONS: usize = 100;
+        const DIRECTION_ITERATIONS: usize = 100;
         const STEADY: f64 = 1e-14;
 
         for c in 0..C {
@@ -412,7 +412,7 @@ where
             let reactions = held.reactions(t, state).reactions;
             let Some(mut direction) = unit([-reactions[first], -reactions[second]]) else { return false };
             let mut steady = false;
-            for _ in 0..ITERATIONS {
+            for _ in 0..DIRECTION_ITERATIONS {
                 let [x, y] = self.leaves_along(c, direction, t, state);
                 steady = vanishes(x) && vanishes(y);
                 if steady {
@@ -456,7 +456,7 @@ where
     fn direction_around(&mut self, c: usize, near: [f64; 2], t: f64, state: &[f64; N]) -> Option<[f64; 2]> {
         /// The parts of the circle, and the times that one is halved.
         const PARTS: i32 = 64;
-        const HALVINGS: usize = 60;
+        const ARC_HALVINGS: usize = 60;
 
         let turned = |angle: f64| {
             let (sin, cos) = libm::sincos(angle);
@@ -476,7 +476,7 @@ where
             if !(below * above <= 0.0) {
                 continue;
             }
-            for _ in 0..HALVINGS {
+            for _ in 0..ARC_HALVINGS {
                 let middle = 0.5 * (low + high);
                 if parts(middle).0 * below > 0.0 {
                     low = middle;

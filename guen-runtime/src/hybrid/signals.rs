@@ -5,7 +5,7 @@ use crate::hybrid::hybrid_state::{Fired, HybridState};
 use crate::hybrid::located::side;
 use crate::hybrid::select::Sign;
 use crate::hybrid::system::HybridSystem;
-use crate::hybrid::vanishing::ROUNDING;
+use crate::hybrid::vanishing::VANISHING_ROUNDING;
 use crate::hybrid::watched::Function;
 use crate::numbers::running_error::RunningError;
 
@@ -23,7 +23,7 @@ where
         let functions = self.in_mode.system.signals(RunningError::once(self.t), &state);
         for (s, signal) in H::SIGNALS.iter().enumerate().filter(|(_, signal)| signal.is_switch()) {
             let function: RunningError<f64> = functions[s];
-            if function.value.abs() > ROUNDING * function.error {
+            if function.value.abs() > VANISHING_ROUNDING * function.error {
                 self.stand(s, if function.value > 0.0 { 1.0 } else { -1.0 });
             } else if signal.effect == Effect::Branch && !crossed[s] {
                 self.stand(s, 0.0);

@@ -15,7 +15,7 @@ where
     /// The time and state at which a slow spatial slip ends, with its direction as it is now.
     pub(super) fn stopped(&self, c: usize, t: f64, state: &[f64; N]) -> (f64, [f64; N]) {
         /// Steps of Newton's method for the time that is left.
-        const ITERATIONS: u32 = 5;
+        const NEWTON_STEPS: u32 = 5;
         /// The number of times by which a slip may be faster that ends together with it.
         const TOGETHER: f64 = 10.0;
 
@@ -38,7 +38,7 @@ where
         let along = |rates: &[f64; W]| direction[0] * rates[first] + direction[1] * rates[second];
         let mut left = 0.0;
         let mut end = *state;
-        for _ in 0..ITERATIONS {
+        for _ in 0..NEWTON_STEPS {
             let motion = straight.reactions(t + left, &end);
             let (slip, change) = (along(&motion.free.row_rates), along(&motion.row_accelerations()));
             if !(change < 0.0) {

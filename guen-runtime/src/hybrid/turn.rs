@@ -339,8 +339,8 @@ where
     /// Whether one of the slipping contacts is next to where its reaction becomes infinite.
     pub(super) fn jams(&self) -> bool {
         /// The part of `D_nn` that is left where steps become too small.
-        const CLOSE: f64 = 1e-2;
-        matches!(self.painleve(), HybridCause::Painleve { p, .. } if p.abs() < CLOSE)
+        const JAMMED_PART: f64 = 1e-2;
+        matches!(self.painleve(), HybridCause::Painleve { p, .. } if p.abs() < JAMMED_PART)
     }
 
     /// Whether another function has reached zero together with one that was located to `bracket`.

@@ -91,7 +91,7 @@ impl<const W: usize, const C: usize> Phase<'_, f64, W, C> {
         judge: &mut dyn FnMut(&Solved<f64, W, C>),
     ) {
         /// Steps of Newton's method from one start, and the largest change of an angle in one of them.
-        const ITERATIONS: usize = 20;
+        const NEWTON_STEPS: usize = 20;
         const LARGEST: f64 = 0.5;
 
         let slips = turns.iter().filter(|turns| **turns).count();
@@ -119,7 +119,7 @@ impl<const W: usize, const C: usize> Phase<'_, f64, W, C> {
                 rest /= parts;
                 angle
             });
-            for _ in 0..ITERATIONS {
+            for _ in 0..NEWTON_STEPS {
                 let directed: [Tangential; C] = filled(|c| match turns[c] {
                     true => Tangential::Slip([libm::cos(angles[c]), libm::sin(angles[c])]),
                     false => tangential[c],

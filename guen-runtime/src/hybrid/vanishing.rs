@@ -7,11 +7,11 @@ pub(super) const NOISE: f64 = 256.0;
 /// The part of what a derivative is made of below which it vanishes: what integration and location leave of a zero.
 pub(super) const VANISHING: f64 = 1e-9;
 /// Below this part of it a derivative vanishes where values are taken as they are: what roundings leave of a zero.
-pub(super) const ROUNDING: f64 = NOISE * 0.5 * f64::EPSILON;
+pub(super) const VANISHING_ROUNDING: f64 = NOISE * 0.5 * f64::EPSILON;
 
 /// Whether a number is no more than rounding.
 pub(super) fn is_rounding(number: RunningError<f64>) -> bool {
-    number.value.abs() <= ROUNDING * number.error
+    number.value.abs() <= VANISHING_ROUNDING * number.error
 }
 
 /// Whether a number vanishes up to what it is made of.

@@ -144,7 +144,7 @@ where
     /// Takes a sample where the run stands, on the way to a time.
     fn sample(&mut self, system: &OptionalProjection<Sampled<S, R, N>>, target: R) -> Result<(), Cause> {
         /// Roundings of a span within which a sample is at its end.
-        const ROUNDINGS: f64 = 4.0;
+        const SAMPLE_ROUNDINGS: f64 = 4.0;
 
         let time = self.reached.time;
         let mut hold = self.hold.borrow_mut();
@@ -161,7 +161,8 @@ where
         }
         let inputs = hold.sample(time, &self.reached.state)?;
         let rest = (target - next).to_f64();
-        let slack = ROUNDINGS * R::epsilon().to_f64() * f64::max(target.to_f64().abs(), next.to_f64().abs());
+        let slack =
+            SAMPLE_ROUNDINGS * R::epsilon().to_f64() * f64::max(target.to_f64().abs(), next.to_f64().abs());
         self.next = if rest > 0.0 && rest <= slack { target } else { next };
         self.samples += 1;
         self.system = Some(held(system, inputs));

@@ -188,8 +188,8 @@ pub(in crate::steppers) const STRETCH: f64 = 1.01;
 /// The shortest step of a run that began at `origin`: it moves the time, and is so many roundings of the time since then.
 #[inline]
 pub(in crate::steppers) fn shortest<R: Real>(time: R, origin: R) -> f64 {
-    const ROUNDINGS: f64 = 10.0;
-    let elapsed = ROUNDINGS * (time - origin).to_f64().abs();
+    const STEP_ROUNDINGS: f64 = 10.0;
+    let elapsed = STEP_ROUNDINGS * (time - origin).to_f64().abs();
     // A rounding of the time itself is a spacing of numbers there, or two.
     let clock = time.to_f64().abs();
     R::epsilon().to_f64() * if elapsed > clock { elapsed } else { clock }

@@ -165,13 +165,13 @@ pub fn onto<R: Real, const N: usize, const M: usize, const H: usize>(
     linearized: impl Fn(R, &[R; N]) -> ([R; H], [[R; N]; H]),
 ) -> Result<[R; M], PositionsError> {
     /// Steps of Newton's method: it doubles the digits, of which what a step of an integration leaves has half at least.
-    const STEPS: usize = 8;
+    const RESTORING_STEPS: usize = 8;
 
     const { assert!(N <= M, "a state begins with its coordinates") }
     let mut onto = *state;
     let precision = libm::sqrt(R::epsilon().to_f64());
     let mut f = [R::zero(); H];
-    for _ in 0..STEPS {
+    for _ in 0..RESTORING_STEPS {
         let x: [R; N] = core::array::from_fn(|i| onto[i]);
         let gradients;
         (f, gradients) = linearized(t, &x);
@@ -230,14 +230,14 @@ where
     S: Positions<R, N, H> + ?Sized,
 {
     /// Far more than a search takes that comes near a solution at all.
-    const STEPS: usize = 60;
+    const SEARCH_STEPS: usize = 60;
     /// The shortest part of a step that is tried.
     const SHORTEST: f64 = 1e-4;
 
     let begin = *x;
     let precision = libm::sqrt(R::epsilon().to_f64());
     let mut extent = x.iter().fold(0.0_f64, |most, x| most.max(x.to_f64().abs()));
-    for round in 0..STEPS {
+    for round in 0..SEARCH_STEPS {
         let (f, gradients) = system.linearized(t, x);
         if f.iter().all(|f| f.to_f64() == 0.0) {
             return ended(system, t, x, &begin, precision * extent);
@@ -300,7 +300,7 @@ struct Factor<R, const N: usize, const H: usize> {
 impl<R: Ordered, const N: usize, const H: usize> Factor<R, N, H> {
     fn new(mut gradients: [[R; N]; H], free: &[bool; N], f: &[R; H]) -> Result<Self, PositionsError> {
         /// A pivot that is this many roundings of its diagonal entry is none.
-        const ROUNDINGS: f64 = 64.0;
+        const PIVOT_ROUNDINGS: f64 = 64.0;
 
         for row in &mut gradients {
             for (entry, free) in row.iter_mut().zip(free) {
@@ -323,7 +323,7 @@ impl<R: Ordered, const N: usize, const H: usize> Factor<R, N, H> {
                 if !whole.is_finite() {
                     return Err(PositionsError::NotFinite);
                 }
-                if pivot <= ROUNDINGS * R::epsilon().to_f64() * whole {
+                if pivot <= PIVOT_ROUNDINGS * R::epsilon().to_f64() * whole {
                     return Err(PositionsError::Singular { residual: largest(f) });
                 }
                 lower[v][v] = rest.sqrt();

@@ -232,7 +232,7 @@ impl<S, F, const FULL: usize> Path<'_, S, F, FULL> {
         /// The part of the largest coefficient that the highest may be.
         const TAIL: f64 = 0.07;
         /// The rounding that a constant rate may show, relative to its largest value.
-        const ROUNDING: f64 = 1e-10;
+        const CONSTANT_RATE_ROUNDING: f64 = 1e-10;
 
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let mut sizes = [0.0_f64; FULL];
@@ -243,7 +243,7 @@ impl<S, F, const FULL: usize> Path<'_, S, F, FULL> {
             for ((entry, rates), (_, others)) in fine.iter().zip(coarse) {
                 let differences: Vec<f64> =
                     rates.iter().step_by(2).zip(others).map(|(rate, other)| rate - other).collect();
-                let noise = (ROUNDING * sizes[*entry]).max(largest(&differences));
+                let noise = (CONSTANT_RATE_ROUNDING * sizes[*entry]).max(largest(&differences));
                 let coefficients = chebyshev(rates);
                 let tail = largest(&coefficients[FINE - 2..]);
                 if tail > noise && tail > TAIL * largest(&coefficients[1..]) {

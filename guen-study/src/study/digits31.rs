@@ -79,7 +79,7 @@ impl Digits31 {
 
     /// `exp(x) - 1` for `|x| <= 1`: of `x/512` by its series, which is then doubled nine times, `(1 + e)^2 - 1 = 2 e + e^2`.
     fn short_exp_m1(self) -> Self {
-        const HALVINGS: i32 = 9;
+        const ARGUMENT_HALVINGS: i32 = 9;
         const TERMS: usize = 10;
         let x = self.times_power_of_two(1.0 / 512.0);
         let inverse = inverse_factorials();
@@ -88,7 +88,7 @@ impl Digits31 {
             sum = sum * x + inverse[k];
         }
         let mut e = sum * x;
-        for _ in 0..HALVINGS {
+        for _ in 0..ARGUMENT_HALVINGS {
             e = e.times_power_of_two(2.0) + e.square();
         }
         e

@@ -13,7 +13,7 @@ pub(super) type Scanner<const N: usize> =
     Rc<dyn Fn(&Problem<'_, N>, ScanDepth, &mut dyn FnMut() -> bool) -> Option<Seen<N>>>;
 
 /// The evaluations of the rates along a motion in all.
-pub(super) const POINTS: usize = 1 << 20;
+pub(super) const SCANNED_POINTS: usize = 1 << 20;
 /// The evaluations in the first pass, and the factor by which they grow while there is time.
 const FIRST: usize = 1 << 12;
 const GROWTH: usize = 16;
@@ -22,7 +22,7 @@ const PART_ELSEWHERE: usize = 16;
 /// The tolerance of the coarser motion, which tells the uncertainty of the finer one, a hundred times as accurate.
 const COARSER: f64 = 1e-11;
 /// The further uncertainty of the finer motion: this much in any case, and so many times what jumps leave uncertain.
-const ROUNDING: f64 = 1e-10;
+const FINER_UNCERTAINTY: f64 = 1e-10;
 const OF_JUMPS: f64 = 10.0;
 
 /// The search for kicks and steep layers that a method might step over, and what it found.
@@ -89,7 +89,7 @@ impl<const N: usize> Motion<N> {
     /// Returns the error of a reference that this motion contradicts, given the differences of the finer motion from it and from the
     /// coarser one: zero, where the motion may be off by as much.
     pub fn contradicts(&self, from_reference: f64, from_coarser: f64) -> f64 {
-        let allowed = self.uncertainty(from_coarser) + ROUNDING;
+        let allowed = self.uncertainty(from_coarser) + FINER_UNCERTAINTY;
         if from_reference <= allowed { 0.0 } else { from_reference }
     }
 }

@@ -453,7 +453,7 @@ impl<S, const N: usize> Study<S, N> {
     {
         use guen_runtime::steppers::Dop853;
         /// The number of evaluations that a motion which is looked at closely may take: stiff ones take more.
-        const STEPS: u64 = scan::MOST_STEPS;
+        const SCAN_STEPS: u64 = scan::MOST_STEPS;
         let (tight, scanned) = (Rc::clone(doubles), Rc::clone(doubles));
         let References { reference, check, elsewhere } =
             reference::references_in::<Digits71, L, N>(long, reference::EXTRAPOLATION_TOLERANCE);
@@ -473,11 +473,11 @@ impl<S, const N: usize> Study<S, N> {
             shorter: None,
             tells: tells_of(Rc::clone(long)),
             tight: Rc::new(move |tolerance| {
-                let method = Dop853::<f64>::new(tolerance, tolerance).with_max_steps(STEPS);
+                let method = Dop853::<f64>::new(tolerance, tolerance).with_max_steps(SCAN_STEPS);
                 variant::run_of::<f64, D, _, N>(Rc::clone(&tight), method)
             }),
             scanner: Rc::new(move |problem, look, watch| scan::scan(&*scanned, problem, look, watch)),
-            points: known::POINTS,
+            points: known::SCANNED_POINTS,
             unit: Unit::Seconds,
             budget: Duration::from_secs(60),
             progress: false,

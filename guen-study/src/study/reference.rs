@@ -95,8 +95,8 @@ where
     S: System<R, N> + 'static,
 {
     /// The number of steps that no reference can afford.
-    const STEPS: u64 = 100_000_000;
-    let check = Dop853::<R>::new(CHECK_TOLERANCE, CHECK_TOLERANCE).with_max_steps(STEPS);
+    const UNAFFORDABLE_STEPS: u64 = 100_000_000;
+    let check = Dop853::<R>::new(CHECK_TOLERANCE, CHECK_TOLERANCE).with_max_steps(UNAFFORDABLE_STEPS);
     let check_name = format!("DOP853 at {CHECK_TOLERANCE:e} in {}", R::NAME);
     References {
         reference: by_extrapolation::<R, S, N>(Rc::clone(system), tolerance),

@@ -56,11 +56,11 @@ impl Settings {
 
     /// The settings for a span of this length. The list of steps is long; a study stops on the way.
     pub(super) fn values(&self, span: f64) -> Vec<f64> {
-        const STEPS: i32 = 50;
+        const SETTINGS: i32 = 50;
         let half_powers = |base: f64, count: i32| (0..count).map(move |k| base.powf(0.5 * f64::from(k)));
         match self {
             Self::Steps => {
-                half_powers(2.0, STEPS).map(|factor| span.abs() / (8.0 * factor).round()).collect()
+                half_powers(2.0, SETTINGS).map(|factor| span.abs() / (8.0 * factor).round()).collect()
             }
             Self::Tolerances => {
                 // By their decimals: a power would be off by a rounding, and long to write.
@@ -68,7 +68,7 @@ impl Settings {
                 let texts = (2..15).flat_map(pair).chain(["1e-15".to_owned()]);
                 texts.filter_map(|text| text.parse().ok()).collect()
             }
-            Self::Evaluations => half_powers(2.0, STEPS).map(|factor| (24.0 * factor).round()).collect(),
+            Self::Evaluations => half_powers(2.0, SETTINGS).map(|factor| (24.0 * factor).round()).collect(),
             Self::List(_, values) => values.clone(),
         }
     }

@@ -110,7 +110,7 @@ fn between(a: [f64; 3], b: [f64; 3], part: f64) -> [f64; 3] {
 }
 
 /// Shapes larger than this part of the motion are drawn first: others move on or before them.
-const LARGE: f64 = 0.3;
+const BACKGROUND_PART: f64 = 0.3;
 
 /// Something to be drawn, where it is, how far from the eye, and how large.
 struct Part {
@@ -181,7 +181,7 @@ pub(super) fn drawn<const N: usize>(
     parts.sort_by(|a, b| b.depth.total_cmp(&a.depth));
     // A table is below what goes on it, and before what is below it: other shapes are on either side of a large one.
     let (large, small): (Vec<_>, Vec<_>) =
-        parts.into_iter().partition(|part| part.reach > LARGE * eye.radius);
+        parts.into_iter().partition(|part| part.reach > BACKGROUND_PART * eye.radius);
     let is_behind = |small: &Part| {
         large.iter().any(|table| {
             let side = |place: [f64; 3]| dot(difference(place, table.at), table.normal);

@@ -14,7 +14,7 @@ pub(super) const ANGLE: f64 = 0.01;
 const VALUE: f64 = 1.0 / 2000.0;
 
 /// The part of a number within which a difference is rounding, and no motion.
-const ROUNDING: f64 = 1e-12;
+const NUMBER_ROUNDING: f64 = 1e-12;
 
 /// Values over time.
 #[derive(Clone, Debug, Default)]
@@ -74,7 +74,7 @@ fn tolerance(places: impl Iterator<Item = [f64; 3]>) -> f64 {
     let (least, most) = bounds(places);
     let size = norm(super::shape::difference(most, least));
     let far = least.into_iter().chain(most).map(f64::abs).fold(0.0, f64::max);
-    (PLACE * size).max(ROUNDING * far).max(f64::MIN_POSITIVE)
+    (PLACE * size).max(NUMBER_ROUNDING * far).max(f64::MIN_POSITIVE)
 }
 
 /// The box around points: its corners, which are infinite if there is no point.
@@ -196,7 +196,8 @@ impl Shown for f64 {
 
     fn chosen(times: &[f64], values: &[Self], most: usize) -> (Chosen, bool) {
         let (low, high) = range(values);
-        let near = (VALUE * (high - low)).max(ROUNDING * low.abs().max(high.abs())).max(f64::MIN_POSITIVE);
+        let near =
+            (VALUE * (high - low)).max(NUMBER_ROUNDING * low.abs().max(high.abs())).max(f64::MIN_POSITIVE);
         let nearness = 1.0 / near;
         let (required, all) = extrema(times, values, most);
         let worst = |a: usize, b: usize, stride: usize| {

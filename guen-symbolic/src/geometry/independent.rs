@@ -6,7 +6,7 @@ use crate::zero::{drawn_states, evaluate_f64};
 
 /// The remainder of a row, beside its own size, where it depends on others: rounding of some dozens of operations and of the
 /// projection of the state is far below it.
-const ROUNDING: f64 = 1e-7;
+const DEPENDENT_REMAINDER: f64 = 1e-7;
 
 /// Returns for each row whether it is independent of those before it, and which rows depend on each other.
 ///
@@ -78,13 +78,14 @@ fn at_a_state(rows: &[&[f64]]) -> (Vec<bool>, Vec<bool>) {
             }
         }
         let left = dot(&rest, &rest).sqrt();
-        if left > ROUNDING * size {
+        if left > DEPENDENT_REMAINDER * size {
             free[place] = true;
             rest.iter_mut().chain(&mut made_of).for_each(|x| *x /= left);
             basis.push((rest, made_of));
         } else {
             for (other, coefficient) in made_of.into_iter().enumerate() {
-                related[other] |= coefficient.abs() * dot(rows[other], rows[other]).sqrt() > ROUNDING * size;
+                related[other] |=
+                    coefficient.abs() * dot(rows[other], rows[other]).sqrt() > DEPENDENT_REMAINDER * size;
             }
             related[place] = true;
         }

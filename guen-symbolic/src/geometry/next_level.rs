@@ -9,7 +9,7 @@ use crate::zero::field::{add, mul, rank};
 use crate::zero::jets::{Moving, Tape};
 
 /// Points at which ranks are looked at; the largest counts.
-const POINTS: usize = 2;
+const RANK_POINTS: usize = 2;
 
 /// The values at one point of a level.
 struct Point {
@@ -67,11 +67,11 @@ fn points(
     let entries: Vec<ExprId> = fresh.iter().flatten().copied().collect();
     let nodes = tape.extend(&mut bench.graph, &entries);
     let mut points = Vec::new();
-    for number in 0..REDRAWS + POINTS {
+    for number in 0..REDRAWS + RANK_POINTS {
         let sample = bench.zero.fresh(&bench.graph, number, true)?;
         let mut moving = Moving::new(&bench.graph, &bench.zero, &tape, sample);
         points.extend(point(&mut moving, nodes, geometry, fresh, kept));
-        if points.len() == POINTS {
+        if points.len() == RANK_POINTS {
             return Some(points);
         }
     }

@@ -71,10 +71,10 @@ impl Derivation {
 /// Whether expressions have the same values at random points wherever the constraints on positions hold: at many, where signs may be
 /// right by chance.
 fn agree(bench: &mut Workbench, own: &[ExprId], other: &[ExprId]) -> bool {
-    const POINTS: usize = 4;
+    const AGREEMENT_POINTS: usize = 4;
     let differences: Vec<ExprId> = own.iter().zip(other).map(|(a, b)| bench.graph.sub(*a, *b)).collect();
     let signs = differences.iter().any(|e| bench.zero.has_signs(&bench.graph, *e));
-    (0..if signs { POINTS_WITH_ROOTS } else { POINTS }).all(|point| {
+    (0..if signs { POINTS_WITH_ROOTS } else { AGREEMENT_POINTS }).all(|point| {
         let residues = bench.zero.residues(&mut bench.graph, point, &differences, true);
         residues.is_some_and(|residues| residues.iter().all(|residue| *residue == 0))
     })

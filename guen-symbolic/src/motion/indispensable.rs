@@ -12,7 +12,7 @@ use crate::workbench::Workbench;
 use crate::zero::{Sample, field};
 
 /// Points at which the mass matrix must be singular.
-const POINTS: u64 = 2;
+const SINGULARITY_POINTS: u64 = 2;
 
 /// The terms that the mass matrix is made of.
 struct Energy {
@@ -61,7 +61,7 @@ pub(super) fn find(
     let mut points: Vec<Option<At>> = Vec::new();
     for (symbol, dependent) in open.into_iter().zip(&dependents) {
         let mut is_singular = true;
-        for number in 0..POINTS {
+        for number in 0..SINGULARITY_POINTS {
             if points.len() as u64 <= number {
                 points.push(At::new(bench, &energy, &all, number));
             }

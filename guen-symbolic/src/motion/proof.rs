@@ -9,7 +9,7 @@ use crate::zero::field::{add, mul, sub};
 use crate::zero::{POINTS_WITH_ROOTS, REDRAWS};
 
 /// Points of a proof.
-const POINTS: usize = 3;
+const PROOF_POINTS: usize = 3;
 
 /// The equations (2.7): their left sides at points, and where points do not decide, as expressions.
 pub(super) struct Definition {
@@ -147,7 +147,7 @@ impl Definition {
         let on_manifold = on_manifold && bench.zero.manifold_is_solved();
         let all = [es, &system.expressions()].concat();
         let signs = all.iter().any(|e| bench.zero.has_signs(&bench.graph, *e));
-        let wanted = if signs { POINTS_WITH_ROOTS } else { POINTS };
+        let wanted = if signs { POINTS_WITH_ROOTS } else { PROOF_POINTS };
         let (mut seen, mut in_vain) = (0, 0);
         for number in 0.. {
             let Some(sample) = bench.zero.fresh(&bench.graph, number, on_manifold) else { break };
@@ -164,7 +164,7 @@ impl Definition {
                 break;
             }
         }
-        if seen >= POINTS { Seen::Holds } else { Seen::Few }
+        if seen >= PROOF_POINTS { Seen::Holds } else { Seen::Few }
     }
 
     /// Whether equations hold, if points decide that: residues may differ where functions do not.

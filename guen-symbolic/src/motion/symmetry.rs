@@ -13,7 +13,7 @@ use crate::workbench::Workbench;
 use crate::zero::Verdict;
 
 /// Points at which all expressions must be unchanged before each is looked at.
-const POINTS: usize = 2;
+const SYMMETRY_POINTS: usize = 2;
 
 /// The replacements that leave a system's equations as they are.
 #[derive(Default)]
@@ -83,7 +83,7 @@ fn unchanged(bench: &mut Workbench, shift: &mut Substitution, es: &[ExprId]) -> 
     if differences.iter().all(|e| bench.graph.is_zero(*e)) {
         return (images != es).then_some(images);
     }
-    for sample in 0..POINTS {
+    for sample in 0..SYMMETRY_POINTS {
         let residues = bench.zero.residues(&mut bench.graph, sample, &differences, false)?;
         if residues.iter().any(|residue| *residue != 0) {
             return None;

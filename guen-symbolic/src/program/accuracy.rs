@@ -16,7 +16,7 @@ use crate::algebra::{Bound, ExprId, Function, Graph, Multivariate, Rational, Rol
 use crate::zero::evaluate;
 
 /// Random points.
-const POINTS: u64 = 4;
+const ACCURACY_POINTS: u64 = 4;
 /// Divisors that are made small, the first of each program.
 const POLES: usize = 4;
 /// The fraction to which such a divisor is reduced.
@@ -244,7 +244,7 @@ impl Candidate {
     /// A point next to a zero of a divisor, from a point where it is not small: one symbol of the state moves, by the
     /// secant method.
     fn near_pole(&self, graph: &Graph, point: &Point, prepared: &[f64], divisor: Value) -> Option<Point> {
-        const STEPS: usize = 40;
+        const SECANT_STEPS: usize = 40;
         let steps = needed(&self.code.instructions, self.code.values, &[divisor]);
         let at = |symbol: SymbolId, x: f64| {
             let moved = Point { moved: Some((symbol, x)), ..point.clone() };
@@ -262,7 +262,7 @@ impl Candidate {
             if at_a == at_b {
                 continue;
             }
-            for _ in 0..STEPS {
+            for _ in 0..SECANT_STEPS {
                 let next = b - at_b * (b - a) / (at_b - at_a);
                 if !next.is_finite() || (next - start).abs() > 4.0 {
                     break;
@@ -327,7 +327,7 @@ struct Losses {
 
 /// Returns the digits that each program loses.
 fn losses(graph: &Graph, codes: &[Candidate]) -> Vec<Losses> {
-    let mut points: Vec<Point> = (0..POINTS).map(Point::drawn).collect();
+    let mut points: Vec<Point> = (0..ACCURACY_POINTS).map(Point::drawn).collect();
     // Equal programs lose as much, and no constant moves: each is looked at once.
     let mut different: Vec<&Candidate> = Vec::new();
     let mut kinds = Vec::new();

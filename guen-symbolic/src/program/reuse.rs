@@ -20,7 +20,7 @@ use crate::algebra::{ExprId, FastMap, Function, Graph, Node, SymbolId};
 use crate::zero::{Real, evaluate};
 
 /// Points at which values are compared: a root of a square has a sign at each.
-const POINTS: usize = 24;
+const REUSE_POINTS: usize = 24;
 /// Points at which values are compared in 237 bits.
 const LONG_POINTS: usize = 2;
 /// The relative difference up to which values may be equal in double precision.
@@ -141,7 +141,7 @@ impl Points {
     fn new(graph: &Graph, code: &Code, prepared: &[ExprId], loads: &Loads) -> Self {
         let has_root = |i: &Instruction| matches!(i.operation, Operation::Call(Function::Root(_), _));
         let wanted =
-            if loads.has_root || code.instructions.iter().any(has_root) { POINTS } else { LONG_POINTS };
+            if loads.has_root || code.instructions.iter().any(has_root) { REUSE_POINTS } else { LONG_POINTS };
         let mut drawn: Vec<(usize, Point, Vec<f64>)> = Vec::new();
         for seed in 0..wanted as u64 {
             let point = Point::anywhere(seed);

@@ -147,7 +147,7 @@ fn without_velocity(
     let zero = bench.graph.zero();
     let drift = Substitution::new(etas.iter().map(|eta| (*eta, zero))).of(&mut bench.graph, form);
     let drift = bench.tidy(drift);
-    let text = bench.graph.text_limited(drift, LONGEST).unwrap_or_else(|| "..".to_owned());
+    let text = bench.graph.text_limited(drift, DRIFT_CHARACTERS).unwrap_or_else(|| "..".to_owned());
     let rate = if is_gap { "its rate" } else { "there it" };
     let fault = Fault::new(span, format!("{what} has no velocity on the constraints"));
     (span, fault.note(format!("{rate} is `{text}`, which no force changes")))
@@ -180,4 +180,4 @@ fn dependent(
 }
 
 /// The most characters of an expression in a message.
-const LONGEST: usize = 80;
+const DRIFT_CHARACTERS: usize = 80;

@@ -292,14 +292,14 @@ pub fn check_definite<R: Real, const N: usize, const L: usize>(
 /// Whether a symmetric matrix has a pivot that is negative beyond rounding, and none before that is next to zero.
 fn has_negative_pivot<const L: usize>(mut matrix: [[f64; L]; L]) -> bool {
     /// A part of the diagonal entry.
-    const ROUNDING: f64 = 1e-9;
+    const PIVOT_ROUNDING: f64 = 1e-9;
     let sizes: [f64; L] = core::array::from_fn(|s| matrix[s][s].abs());
     for s in 0..L {
         let pivot = matrix[s][s];
-        if pivot < -ROUNDING * sizes[s] {
+        if pivot < -PIVOT_ROUNDING * sizes[s] {
             return true;
         }
-        if pivot.is_nan() || pivot <= ROUNDING * sizes[s] {
+        if pivot.is_nan() || pivot <= PIVOT_ROUNDING * sizes[s] {
             return false;
         }
         let top = matrix[s];
@@ -333,7 +333,7 @@ fn has_negative_pivot<const L: usize>(mut matrix: [[f64; L]; L]) -> bool {
 /// [`ConstantsError::NotPhysical`].
 pub fn check_inertia<R: Real>(entries: &[R; 6], body: &'static str) -> Result<(), ConstantsError> {
     /// Limits are meant to be reached: what is above them by this part of the trace is rounding.
-    const ROUNDING: f64 = 64.0 * f64::EPSILON;
+    const TRACE_ROUNDING: f64 = 64.0 * f64::EPSILON;
 
     let [xx, yy, zz, xy, yz, zx] = entries.map(Real::to_f64);
     let half = (xx + yy + zz) / 2.0;
@@ -355,5 +355,5 @@ pub fn check_inertia<R: Real>(entries: &[R; 6], body: &'static str) -> Result<()
         c * a - f * f,
         a * b * c + 2.0 * d * e * f - a * e * e - b * f * f - c * d * d,
     ];
-    if half > 0.0 && minors.iter().all(|minor| *minor >= -ROUNDING) { Ok(()) } else { Err(fault) }
+    if half > 0.0 && minors.iter().all(|minor| *minor >= -TRACE_ROUNDING) { Ok(()) } else { Err(fault) }
 }

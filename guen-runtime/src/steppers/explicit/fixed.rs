@@ -258,7 +258,7 @@ impl<R: Real> Leg<R> {
         const COUNTABLE: f64 = (1_u64 << 53) as f64;
         /// Roundings by which a span may exceed a whole number of steps without being given a further one: those
         /// of the span, of the quotient, and of the step as the user divided it.
-        const ROUNDINGS: f64 = 4.0;
+        const SPAN_ROUNDINGS: f64 = 4.0;
 
         let size = step.to_f64();
         if !(step.is_finite() && size > 0.0) {
@@ -269,7 +269,7 @@ impl<R: Real> Leg<R> {
         if steps >= COUNTABLE || steps.is_nan() {
             return Err(Cause::StepUnderflow);
         }
-        let slack = ROUNDINGS * f64::max(R::epsilon().to_f64(), f64::EPSILON);
+        let slack = SPAN_ROUNDINGS * f64::max(R::epsilon().to_f64(), f64::EPSILON);
         let count = libm::ceil(steps * (1.0 - slack)).max(1.0) as i64;
         Ok(Self { origin, target, h: if span < 0.0 { -step } else { step }, index: 0, count })
     }

@@ -343,16 +343,16 @@ where
     R: Ordered,
     S: Differentiable<R, N> + ?Sized,
 {
-    const ITERATIONS: u32 = 50;
+    const STAGE_ITERATIONS: u32 = 50;
     /// Steps below so many roundings are rounding if they do not become smaller any more.
-    const ROUNDINGS: f64 = 1e5;
+    const STALLED_ROUNDINGS: f64 = 1e5;
     /// An entry much smaller than the largest one need not be right relative to itself.
     const NEGLIGIBLE_PART: f64 = 1e-3;
 
     let epsilon = R::epsilon().to_f64();
     let mut z = start.unwrap_or([[R::zero(); N]; M]);
     let mut last = f64::INFINITY;
-    for iteration in 1..=ITERATIONS {
+    for iteration in 1..=STAGE_ITERATIONS {
         let step = collocation.newton(system, factors, (from.time, &from.state, h), &z);
         statistics.evaluations += M as u64;
         let mut sizes = from.state.map(|x| x.to_f64().abs());
@@ -375,7 +375,7 @@ where
                 size = size.max(part);
             }
         }
-        if size <= epsilon || (size <= ROUNDINGS * epsilon && size >= 0.5 * last) {
+        if size <= epsilon || (size <= STALLED_ROUNDINGS * epsilon && size >= 0.5 * last) {
             return Some((z, iteration));
         }
         if size > 2.0 * last && iteration > 3 {

@@ -185,10 +185,10 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
     where
         S: Differentiable<R, N> + ?Sized,
     {
-        const ITERATIONS: u32 = 10;
+        const STAGE_ITERATIONS: u32 = 10;
         /// Part of the tolerance that the equations are solved to at least.
         const MAX_TOLERANCE_PART: f64 = 0.03;
-        const ROUNDINGS: f64 = 10.0;
+        const TOLERANCE_ROUNDINGS: f64 = 10.0;
         /// A rate of convergence that is none.
         const DIVERGENT_RATE: f64 = 0.99;
 
@@ -201,11 +201,11 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
             .zip(weights)
             .fold(0.0_f64, |most, (x, weight)| most.max(x.to_f64().abs() * weight));
         let relative = 1.0 / strictest;
-        let enough =
-            (ROUNDINGS * R::epsilon().to_f64() / relative).max(libm::sqrt(relative).min(MAX_TOLERANCE_PART));
+        let enough = (TOLERANCE_ROUNDINGS * R::epsilon().to_f64() / relative)
+            .max(libm::sqrt(relative).min(MAX_TOLERANCE_PART));
         let mut z = start.unwrap_or([[R::zero(); N]; 3]);
         let (mut last, mut rate) = (f64::INFINITY, 0.0);
-        for iteration in 1..=ITERATIONS {
+        for iteration in 1..=STAGE_ITERATIONS {
             let Checkpoint { time, state, .. } = &self.reached;
             let step = collocation.newton(system, factors, (*time, state, h), &z);
             self.reached.statistics.evaluations += 3;
@@ -229,7 +229,7 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
                     return Solved::Diverged;
                 }
                 left = size * rate / (1.0 - rate);
-                let remaining = (ITERATIONS - iteration) as i32;
+                let remaining = (STAGE_ITERATIONS - iteration) as i32;
                 if left * Real::powi(rate, remaining) > enough {
                     return Solved::Diverged;
                 }

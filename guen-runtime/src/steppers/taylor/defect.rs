@@ -76,15 +76,15 @@ impl<R: Ordered, const N: usize> Defect<'_, R, N> {
         S: TaylorSeries<R, N> + ?Sized,
     {
         /// The number of roundings by which neighbouring states differ.
-        const ROUNDINGS: f64 = 2.0;
+        const NEIGHBOUR_ROUNDINGS: f64 = 2.0;
         /// The defect is allowed to be so many times as large as the difference of the rates: of many roundings a few tell
         /// about the others.
         const ROUNDING_FACTOR: f64 = 8.0;
 
         let begin = &self.series.coefficients[0];
         let over = self.length / self.series.scale;
-        let here = system.rhs(self.time, &neighbour(self.state, ROUNDINGS));
-        let there = system.rhs(self.series.start, &neighbour(begin, ROUNDINGS));
+        let here = system.rhs(self.time, &neighbour(self.state, NEIGHBOUR_ROUNDINGS));
+        let there = system.rhs(self.series.start, &neighbour(begin, NEIGHBOUR_ROUNDINGS));
         // Of the sum: the largest of its terms counts.
         let terms = self.terms(over);
         (0..N).all(|i| {

@@ -110,7 +110,7 @@ impl Resolver<'_, '_> {
             }
             let mut places = Vec::new();
             for (i, (name, _, ends)) in limited.iter().enumerate() {
-                let end = graph.text_limited(ends[corner >> i & 1], LONGEST).unwrap_or_default();
+                let end = graph.text_limited(ends[corner >> i & 1], LIMIT_CHARACTERS).unwrap_or_default();
                 places.push(format!("`{name} = {end}`"));
             }
             let note = format!("at {} it is {number}", places.join(", "));
@@ -124,4 +124,4 @@ impl Resolver<'_, '_> {
 const MOST_LIMITED: usize = 6;
 
 /// The most characters of a limit in a message.
-const LONGEST: usize = 40;
+const LIMIT_CHARACTERS: usize = 40;
