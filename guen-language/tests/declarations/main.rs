@@ -11,6 +11,7 @@ mod dimensions;
 mod families;
 mod functions;
 mod grammar_of_the_page;
+mod hinges;
 mod hints;
 mod imported;
 mod imports;

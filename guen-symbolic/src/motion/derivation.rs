@@ -282,6 +282,10 @@ fn classify(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame, closur
 
 /// Whether a function is constant on the holonomic constraints: `X_j f = 0` there for all `j` whose displacement stays on them.
 pub(super) fn rests(bench: &mut Workbench, system: &Mechanics, frame: &Frame, e: ExprId) -> bool {
+    // Where it vanishes on all of them it rests, and its derivatives may be large.
+    if bench.verdict_on_manifold(e) == Verdict::Zero {
+        return true;
+    }
     let forms = &system.forms;
     (0..=forms.len()).filter(|j| system.holonomic.iter().all(|h| h.form + 1 != *j)).all(|j| {
         let mut terms: Vec<ExprId> = Vec::new();

@@ -144,7 +144,7 @@ impl Definition {
         differs: impl Fn(&mut Point<'_>, &[u64]) -> Option<Option<usize>>,
     ) -> Seen {
         // What holds everywhere holds on constraints of which no points are found, too.
-        let on_manifold = on_manifold && bench.zero.manifold_is_solved();
+        let on_manifold = on_manifold && bench.zero.manifold_has_points();
         let all = [es, &system.expressions()].concat();
         let signs = all.iter().any(|e| bench.zero.has_signs(&bench.graph, *e));
         let wanted = if signs { POINTS_WITH_ROOTS } else { PROOF_POINTS };

@@ -2,7 +2,8 @@
 //!
 //! What comes in are the functions that vanish on the manifold. Modulo the prime they are solved block by
 //! block for symbols that enter them linearly (one of a block's equations may be quadratic): a block's
-//! symbols occur in no equation solved before it. A real point is a random point projected by Newton's
+//! symbols occur in no equation solved before it. Equations for which there is no block are left out: what vanishes where
+//! the others hold vanishes on the manifold, and what does not may. A real point is a random point projected by Newton's
 //! method onto the manifold.
 
 use super::field::{self, PRIME, add, inverse, mul, neg, sub};
@@ -16,6 +17,8 @@ use f256::f256;
 const LARGEST_BLOCK: usize = 3;
 /// Sets of symbols that are tried for one set of equations.
 const LARGEST_SEARCH: usize = 200;
+/// Equations that are tried to be left out, in all; beyond them the first of those that may be is.
+const TRIES_WITHOUT: usize = 200;
 /// Draws of a whole point before there is none: of eight lengths that are roots of what all have in common, one in 256 has all.
 const DRAWS: u64 = 1024;
 /// Draws of the symbols of one block before the point has none.
@@ -44,9 +47,11 @@ struct Block {
 /// The set where all equations hold.
 #[derive(Debug)]
 pub(super) struct Manifold {
-    /// The blocks in the order of solution; `None` if no order was found.
+    /// The blocks in the order of solution; `None` if there are no points.
     blocks: Option<Vec<Block>>,
     equations: Vec<ExprId>,
+    /// The equations that hold at points modulo the prime: all of them, or as many as can be solved.
+    solved: Vec<ExprId>,
     /// The symbols along which a real point may move, and the equations' derivatives by them, row by row.
     variables: Vec<SymbolId>,
     jacobian: Vec<ExprId>,
@@ -80,11 +85,13 @@ impl Manifold {
             }
         }
         table.scan(graph);
-        let blocks = triangular((graph, table), &equations, occurring);
-        let mut manifold = Manifold { blocks, equations, variables, jacobian, occurrence: Vec::new() };
+        let (blocks, kept) = triangular((graph, table), &equations, occurring);
+        let solved = kept.into_iter().map(|i| equations[i]).collect();
+        let mut manifold =
+            Manifold { blocks: Some(blocks), equations, solved, variables, jacobian, occurrence: Vec::new() };
         // An order by which no draw gives a point, as where a length that is promised to be positive would have to vanish, is none: every
         // question would search for a point again.
-        if manifold.sample(graph, table, 0).is_none() {
+        if manifold.solved.is_empty() || manifold.sample(graph, table, 0).is_none() {
             manifold.blocks = None;
         }
         manifold
@@ -95,8 +102,13 @@ impl Manifold {
         graph.reachable(&self.equations, |_| false).contains(&e)
     }
 
-    /// Whether points modulo the prime can be found.
+    /// Whether points modulo the prime can be found where all constraints hold.
     pub(super) fn is_solved(&self) -> bool {
+        self.has_points() && self.solved.len() == self.equations.len()
+    }
+
+    /// Whether there are points where some of the constraints hold.
+    pub(super) fn has_points(&self) -> bool {
         self.blocks.is_some()
     }
 
@@ -135,7 +147,7 @@ impl Manifold {
             }
             let mut sample = Sample::new(seed);
             sample.fixed = fixed;
-            self.equations.iter().all(|e| sample.value(graph, table, *e) == Some(0)).then_some(sample)
+            self.solved.iter().all(|e| sample.value(graph, table, *e) == Some(0)).then_some(sample)
         })
     }
 
@@ -451,36 +463,53 @@ fn degree(graph: &Graph, e: ExprId, symbols: &[SymbolId]) -> Option<u32> {
     degrees[&e]
 }
 
-/// An order in which the equations can be solved, found from its end: what is solved last disturbs nothing.
+/// An order in which the equations can be solved, found from its end: what is solved last disturbs nothing. Equations that are in the way
+/// are left out; returned are the blocks, and which equations they have.
 fn triangular(
     (graph, table): (&Graph, &Table),
     equations: &[ExprId],
     occurring: Vec<Vec<SymbolId>>,
-) -> Option<Vec<Block>> {
+) -> (Vec<Block>, Vec<usize>) {
     let polynomial = occurring.iter().zip(equations).map(|(symbols, e)| {
         let is_polynomial = |symbol: &SymbolId| degree(graph, *e, &[*symbol]).is_some();
         symbols.iter().copied().filter(is_polynomial).collect()
     });
     let polynomial: Vec<Vec<SymbolId>> = polynomial.collect();
     let mut remaining: Vec<usize> = (0..equations.len()).collect();
+    let mut kept = Vec::new();
     let mut blocks = Vec::new();
-    while !remaining.is_empty() {
-        let (chosen, mut block) = (1..=LARGEST_BLOCK.min(remaining.len())).find_map(|size| {
+    let last = |remaining: &[usize]| {
+        (1..=LARGEST_BLOCK.min(remaining.len())).find_map(|size| {
             // A single equation should be linear if any is.
             [false, true].into_iter().find_map(|quadratic| {
-                subsets(&remaining, size).into_iter().find_map(|chosen| {
-                    let block = last_block(
-                        (graph, table),
-                        equations,
-                        [&occurring, &polynomial],
-                        &remaining,
-                        &chosen,
-                        quadratic,
-                    )?;
-                    Some((chosen, block))
+                subsets(remaining, size).into_iter().find_map(|chosen| {
+                    let occurrence = [&occurring[..], &polynomial];
+                    last_block((graph, table), equations, occurrence, remaining, &chosen, quadratic)
+                        .map(|block| (chosen, block))
                 })
             })
-        })?;
+        })
+    };
+    // No block has an equation in which nothing is a polynomial.
+    remaining.retain(|i| !polynomial[*i].is_empty());
+    let mut tries = TRIES_WITHOUT;
+    while !remaining.is_empty() {
+        let Some((chosen, mut block)) = last(&remaining) else {
+            // Without one equation there may be a way. Lengths stay: squares of few symbols.
+            let has_squares =
+                |i: &usize| occurring[*i].iter().any(|s| degree(graph, equations[*i], &[*s]) == Some(2));
+            let mut order = remaining.clone();
+            order.reverse();
+            order.sort_by_key(|i| (core::cmp::Reverse(occurring[*i].len()), has_squares(i)));
+            let out = order.iter().copied().take(tries).find(|out| {
+                tries -= 1;
+                let others: Vec<usize> = remaining.iter().copied().filter(|i| i != out).collect();
+                last(&others).is_some()
+            });
+            let out = out.unwrap_or(order[0]);
+            remaining.retain(|i| *i != out);
+            continue;
+        };
         remaining.retain(|i| !chosen.contains(i));
         let mut free: Vec<SymbolId> = chosen.iter().flat_map(|i| occurring[*i].iter().copied()).collect();
         free.sort_unstable();
@@ -488,10 +517,11 @@ fn triangular(
         free.retain(|s| !block.symbols.contains(s) && !remaining.iter().any(|i| occurring[*i].contains(s)));
         block.free = free;
         blocks.push(block);
+        kept.extend(chosen);
     }
     // What a later block may draw again is fixed by the blocks before it only through their own equations.
     blocks.reverse();
-    Some(blocks)
+    (blocks, kept)
 }
 
 /// The chosen equations as a block whose symbols occur in no other remaining equation; given which symbols occur in each, and in which

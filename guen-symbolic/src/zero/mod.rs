@@ -134,6 +134,11 @@ impl ZeroTest {
         self.manifold.as_ref().is_none_or(Manifold::is_solved)
     }
 
+    /// Whether there are points where the equations of the manifold hold that can be solved: what holds there holds on the manifold.
+    pub(crate) fn manifold_has_points(&self) -> bool {
+        self.manifold.as_ref().is_none_or(Manifold::has_points)
+    }
+
     /// Whether an expression vanishes at all points of the manifold, for all values of the other symbols.
     pub fn verdict_on_manifold(&mut self, g: &mut Graph, e: ExprId) -> Verdict {
         match self.verdict(g, e) {
@@ -141,6 +146,15 @@ impl ZeroTest {
             free if self.manifold.is_none() => free,
             _ => self.decide(g, e, true, 0),
         }
+    }
+
+    /// Whether expressions vanish wherever some equations hold, others than those of the manifold: at one point where those hold that can be
+    /// solved.
+    pub(crate) fn vanish_where(&mut self, g: &mut Graph, equations: &[ExprId], es: &[ExprId]) -> bool {
+        let manifold = Manifold::new(g, &mut self.table, equations);
+        self.table.scan(g);
+        let point = new_sample(g, &self.table, Some(&manifold), 0);
+        point.is_some_and(|mut point| es.iter().all(|e| point.value(g, &self.table, *e) == Some(0)))
     }
 
     /// Whether a point shows that an expression does not vanish, on the manifold or anywhere: no more is asked where what is
@@ -216,7 +230,7 @@ impl ZeroTest {
         self.table.scan(g);
         es.iter().all(|e| {
             let enters = match &mut self.manifold {
-                Some(manifold) if on_manifold => manifold.enters_functions(g, *e),
+                Some(manifold) if on_manifold => !manifold.is_solved() || manifold.enters_functions(g, *e),
                 _ => false,
             };
             !enters && self.table.flags[e.index()] & (ROOT | ATOM | TRANSCENDENTAL | OPAQUE | UNDEFINED) == 0
@@ -306,6 +320,9 @@ impl ZeroTest {
 
     /// The rank of a matrix at general points; `None` if no point was found.
     pub fn rank(&mut self, g: &mut Graph, rows: &[Vec<ExprId>], on_manifold: bool) -> Option<usize> {
+        if on_manifold && !self.manifold_is_solved() {
+            return None;
+        }
         let flat: Vec<ExprId> = rows.iter().flatten().copied().collect();
         let mut rank = 0;
         for sample in 0..2 {
@@ -329,6 +346,9 @@ impl ZeroTest {
         rows: &[Vec<ExprId>],
         on_manifold: bool,
     ) -> Option<Vec<Vec<u64>>> {
+        if on_manifold && !self.manifold_is_solved() {
+            return None;
+        }
         let flat: Vec<ExprId> = rows.iter().flatten().copied().collect();
         let mut values = self.residues(g, 0, &flat, on_manifold)?.into_iter();
         let matrix: Vec<Vec<u64>> =
@@ -443,7 +463,7 @@ impl ZeroTest {
         }
         if on_manifold
             && let Some(manifold) = &mut self.manifold
-            && manifold.enters_functions(g, e)
+            && (!manifold.is_solved() || manifold.enters_functions(g, e))
         {
             flags |= OPAQUE;
         }

@@ -36,6 +36,9 @@ impl Kinematics<'_> {
         let weight = if axes == 0 {
             let gravity: Option<[ExprId; 3]> = self.system.structure.gravity;
             gravity.map_or([Num::ZERO; 3], |g| g.map(|e| self.numbers.import(self.bench, e)))
+        } else if let Some(declared) = self.tree.spins.iter().find(|found| found.axes == axes) {
+            let carrier = self.weight(declared.against);
+            [0, 1, 2].map(|q| self.numbers.dot(&declared.matrix.map(|row| row[q]), &carrier))
         } else {
             let parent = self.weight(self.tree.axes[axes].parent);
             self.tree.outwards(self.numbers, axes, &parent)

@@ -473,11 +473,14 @@ impl<'a> Assembly<'a> {
             // What is a sum of others costs nothing at any time.
             let is_first =
                 |var: &Var| when.shifts_first || definitions[var].0.iter().all(|(_, c)| c.abs() == Num::ONE);
-            let mut next = left.iter().rposition(|var| is_plain(var) && is_first(var));
+            let age = |place: &usize| (self.general_axes(left[*place]), *place);
+            let youngest =
+                |is: &dyn Fn(&Var) -> bool| (0..left.len()).filter(|place| is(&left[*place])).max_by_key(age);
+            let mut next = youngest(&|var| is_plain(var) && is_first(var));
             let mut pairs = Vec::new();
             if next.is_none() {
                 let (ready, in_use) = self.youngest_pairs(&left, is_ready);
-                next = if in_use || ready.is_empty() { left.iter().rposition(is_plain) } else { None };
+                next = if in_use || ready.is_empty() { youngest(&is_plain) } else { None };
                 pairs = ready;
             }
             if next.is_none() && pairs.is_empty() {
@@ -507,6 +510,19 @@ impl<'a> Assembly<'a> {
             }
         }
         Some(())
+    }
+
+    /// The axes in which a velocity is, in a tree whose general axes hang on neighbours: of these no pairs are turned, and what belongs to
+    /// the youngest leaves first.
+    fn general_axes(&self, var: Var) -> usize {
+        let (tree, variables) = (self.kinematics.tree, self.kinematics.variables);
+        match variables.kind(var) {
+            _ if !tree.has_neighbours() => 0,
+            Kind::Spin(axes, _) => axes,
+            Kind::Velocity(point, _) => tree.points[point].axes,
+            Kind::Before(point, _) => tree.points[tree.points[point].parent].axes,
+            Kind::Eta(_) | Kind::Rate(_) => 0,
+        }
     }
 
     /// The pairs of the youngest axes that nothing uses, and whether others of these axes are still in use.

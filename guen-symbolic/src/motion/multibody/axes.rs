@@ -21,19 +21,36 @@ pub(super) struct Axes {
     pub(super) turned: Turned,
 }
 
+/// A turn of axes in any way, as it is declared.
+#[derive(Clone, Debug)]
+pub(super) struct DeclaredTurn {
+    pub(super) axes: usize,
+    /// The axes against which they are declared.
+    pub(super) against: usize,
+    /// The rotation matrix to these.
+    pub(super) matrix: Matrix,
+    /// The angular velocity against these, in their own axes.
+    pub(super) spin: Vector,
+}
+
 /// All axes, and which of them each frame has.
 pub(super) struct AllAxes {
     /// The world's first.
     pub(super) list: Vec<Axes>,
     /// The axes of each frame, and the constant matrix that leads from components in them to those in the frame.
     frames: Vec<(usize, Option<Matrix>)>,
+    /// The turns of general axes as they are declared.
+    pub(super) general: Vec<DeclaredTurn>,
 }
 
 impl AllAxes {
     /// The axes of a graph's frames; `None` where a joint is about an axis of constants that may point anywhere.
     pub(super) fn new(bench: &mut Workbench, system: &SystemGraph) -> Option<Self> {
-        let mut all =
-            AllAxes { list: vec![Axes { parent: 0, turned: Turned::World }], frames: vec![(0, None)] };
+        let mut all = AllAxes {
+            list: vec![Axes { parent: 0, turned: Turned::World }],
+            frames: vec![(0, None)],
+            general: Vec::new(),
+        };
         for index in 1..system.frames().len() {
             let frame = &system.frames()[index];
             let (parent, base) = all.frames[frame.parent.index()];
@@ -54,7 +71,9 @@ impl AllAxes {
                         let back = transposed(base);
                         product(bench, &back, matrix)
                     });
-                    (all.push(parent, Turned::By { matrix, spin: *spin }), None)
+                    let place = all.push(parent, Turned::By { matrix, spin: *spin });
+                    all.general.push(DeclaredTurn { axes: place, against: parent, matrix, spin: *spin });
+                    (place, None)
                 }
             };
             all.frames.push(entry);

@@ -301,7 +301,7 @@ fn choose(
 }
 
 /// The inverse of the coefficients of one, two or three forms, or of orthogonal ones.
-fn inverse(numbers: &mut Numbering, matrix: &[Vec<Num>]) -> Option<Vec<Vec<Num>>> {
+pub(super) fn inverse(numbers: &mut Numbering, matrix: &[Vec<Num>]) -> Option<Vec<Vec<Num>>> {
     match matrix.len() {
         1 => Some(vec![vec![numbers.div(Num::ONE, matrix[0][0])]]),
         _ if is_orthogonal(numbers, matrix) => Some(orthogonal_inverse(numbers, matrix)),

@@ -131,8 +131,11 @@ impl<'a> Kinematics<'a> {
             }
             None => match self.variables.kind(var) {
                 Kind::Rate(_) if self.is_at_rest => Num::ZERO,
-                // Nothing in the tree needs it: as the operators have it.
-                Kind::Rate(i) => self.numbers.import(self.bench, self.frame.velocities[i]),
+                // Nothing in the tree needs it: by what it is a coordinate of, or as the operators have it.
+                Kind::Rate(i) => match self.rate_of_coordinate(i) {
+                    Some(rate) => rate,
+                    None => self.numbers.import(self.bench, self.frame.velocities[i]),
+                },
                 _ => match raw_kinematic(self.tree, self.variables, var) {
                     Some((terms, offset)) => {
                         let mut sum = offset;

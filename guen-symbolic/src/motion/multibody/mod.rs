@@ -1,8 +1,8 @@
 //! Accelerations of bodies that hang on each other and roll: kinematics outwards, elimination inwards, over velocities that are
 //! named where they are.
 //!
-//! `axes`, `shifts` and `points` choose axes and origins, `tree` puts them together and regroups what the bodies weigh; `variables` says
-//! which velocities vanish or are one; `forms` and `declared` have the declaration over these, `plan` says what determines
+//! `axes`, `shifts` and `points` choose axes and origins, `neighbours` and `pins` what axes and mass centres hang on where these are given
+//! in the world; `tree` puts them together and regroups what the bodies weigh; `variables` says which velocities vanish or are one; `forms` and `declared` have the declaration over these, `plan` says what determines
 //! what, `core` solves what is left; `kinematics` goes outwards, `assembly` puts up the quadratic form and the forces and
 //! takes them back to the parameters, where `inertial_forces` may find the forces from the form.
 
@@ -11,6 +11,8 @@ mod assembly;
 mod axes;
 mod beside;
 mod biases;
+mod combinations;
+mod coordinates;
 mod core;
 mod declared;
 mod definitions;
@@ -19,6 +21,8 @@ mod form;
 mod forms;
 mod inertial_forces;
 mod kinematics;
+mod neighbours;
+mod pins;
 mod plan;
 mod points;
 mod print;
@@ -124,7 +128,8 @@ fn is_understood(bench: &Workbench, system: &Mechanics) -> bool {
     weights.all(|e| bench.graph.roles(*e).is_constant())
 }
 
-/// Whether constraints on positions are no integrals of some velocities off the constraints: then these are of no use.
+/// Whether constraints on positions are no integrals of some velocities off the constraints: then these are of no use. It is enough that
+/// some are integrals everywhere, and the others wherever these hold: what keeps quaternions at length one keeps hinges.
 fn drifts(bench: &mut Workbench, system: &Mechanics, velocities: &[ExprId]) -> bool {
     let mut drift = Vec::new();
     for holonomic in &system.holonomic {
@@ -132,8 +137,12 @@ fn drifts(bench: &mut Workbench, system: &Mechanics, velocities: &[ExprId]) -> b
         let rate = bench.dot(&form.row, velocities);
         drift.push(bench.graph.add(rate, form.offset));
     }
-    let residues = bench.zero.residues(&mut bench.graph, 0, &drift, false);
-    !residues.is_some_and(|residues| residues.iter().all(|residue| *residue == 0))
+    let Some(residues) = bench.zero.residues(&mut bench.graph, 0, &drift, false) else { return true };
+    let is_kept = |place: &usize| residues[*place] == 0;
+    let (kept, others): (Vec<usize>, Vec<usize>) = (0..drift.len()).partition(is_kept);
+    let others: Vec<ExprId> = others.into_iter().map(|place| drift[place]).collect();
+    let kept: Vec<ExprId> = kept.into_iter().map(|place| system.holonomic[place].equation).collect();
+    !others.is_empty() && !bench.zero.vanish_where(&mut bench.graph, &kept, &others)
 }
 
 /// The equations of a system of bodies whose constraints are parameters that stay zero: a row for each form, a column for each parameter

@@ -1,7 +1,6 @@
 //! Constants of bodies that move to the parent of a joint, which its turn leaves alone.
 
-use super::strain::columns;
-use super::tree::{Content, PointNode, Tree, Turn, Vec3, about, shifted};
+use super::tree::{Content, PointNode, Tree, Turn, Vec3, about, columns, shifted};
 use super::variables::{Class, Var, Variables};
 use crate::numbering::{Num, Numbering};
 

@@ -13,7 +13,7 @@
 
 use super::rotations::Matrix;
 use super::shifts::Turned;
-use super::tree::{Mat3, Seat, Tree, Turn, Vec3};
+use super::tree::{Mat3, Seat, Tree, Turn, Vec3, columns};
 use super::variables::{Var, Variables};
 use crate::algebra::ExprId;
 use crate::motion::{Frame, Mechanics};
@@ -140,10 +140,6 @@ pub(super) fn needed(tree: &Tree, variables: &Variables, strains: &[Strain]) -> 
             .chain(seat.point.into_iter().flat_map(|point| (0..3).map(move |q| variables.velocity(point, q))))
     });
     velocities.collect()
-}
-
-pub(super) fn columns(m: &Mat3) -> Mat3 {
-    [0, 1, 2].map(|q| m.map(|row| row[q]))
 }
 
 pub(super) fn applied(numbers: &mut Numbering, m: &Mat3, v: &Vec3) -> Vec3 {

@@ -1,6 +1,8 @@
 //! The tree of axes and points in numbered expressions, and what hangs on it, regrouped.
 
 use super::axes::AllAxes;
+use super::combinations::rates_of_coordinates;
+use super::pins::{Pins, in_world};
 use super::points::{Point, Points, Terms};
 use super::rotations::Vector;
 use super::shifts::Turned;
@@ -95,6 +97,39 @@ pub(super) struct Tree {
     pub(super) points: Vec<PointNode>,
     pub(super) seats: Vec<Seat>,
     pub(super) contents: Vec<Content>,
+    /// The turns of general axes, whatever these hang on.
+    pub(super) spins: Vec<DeclaredSpin>,
+    pub(super) pins: Vec<PinNode>,
+}
+
+/// The turn of general axes as it is declared.
+pub(super) struct DeclaredSpin {
+    pub(super) axes: usize,
+    /// The axes against which they are declared.
+    pub(super) against: usize,
+    /// The matrix to these.
+    pub(super) matrix: Mat3,
+    /// The spin against these, in their own axes, by the rates of coordinates.
+    pub(super) spin: [RateForm; 3],
+}
+
+impl DeclaredSpin {
+    /// The coordinates in whose rates the spin is written.
+    pub(super) fn coordinates(&self) -> impl Iterator<Item = usize> {
+        self.spin.iter().flat_map(|form| form.terms.iter().map(|(i, _)| *i))
+    }
+}
+
+/// A point whose coordinates follow from where it is pinned: `c p' + q' + sum of w x r = 0`.
+pub(super) struct PinNode {
+    /// The coordinates of the point, by component.
+    pub(super) point: [Option<usize>; 3],
+    /// The factor `c` of the point.
+    pub(super) factor: Num,
+    /// The rates of what else is given in the world, `q'`.
+    pub(super) others: [RateForm; 3],
+    /// Vectors `r` that are constant in axes.
+    pub(super) arms: Vec<(usize, Vec3)>,
 }
 
 impl Tree {
@@ -107,9 +142,15 @@ impl Tree {
     ) -> Option<Self> {
         let structure = &system.structure;
         let mut all = AllAxes::new(bench, structure)?;
+        if all.general.len() > 1 && !system.holonomic.is_empty() {
+            let rates = rates_of_coordinates(bench, numbers, system)?;
+            all.settle_neighbours(bench, numbers, partials, &rates)?;
+        }
+        let pins = Pins::new(bench, system);
         let mut seats: Vec<(usize, Option<Terms>)> = Vec::new();
         for body in &structure.bodies {
-            let terms = body.center.as_ref().map(|center| all.terms(bench, center));
+            let center = body.center.as_ref().map(|center| pins.reduced(bench, center));
+            let terms = center.map(|center| all.terms(bench, &center));
             // A particle is seen in the youngest axes of its place.
             let youngest = terms.iter().flatten().map(|(axes, _)| *axes).max().unwrap_or(0);
             let axes = body.frame.map_or(youngest, |frame| all.of(frame));
@@ -125,6 +166,8 @@ impl Tree {
             points: Vec::new(),
             seats: Vec::new(),
             contents: Vec::new(),
+            spins: Vec::new(),
+            pins: Vec::new(),
         };
         let mut loaded = Vec::new();
         for (body, (axes, terms)) in structure.bodies.iter().zip(seats) {
@@ -133,6 +176,7 @@ impl Tree {
         }
         tree.number_axes(bench, numbers, system, partials);
         tree.number_points(bench, numbers, system);
+        tree.number_pins(bench, numbers, system, &pins);
         for (body, axes, located) in loaded {
             let zero = bench.graph.zero();
             let tensor = match body.frame {
@@ -151,7 +195,13 @@ impl Tree {
         system: &Mechanics,
         partials: &mut VelocityPartials,
     ) {
-        for axes in &self.all.list {
+        for turn in &self.all.general {
+            let matrix = turn.matrix.map(|row| row.map(|e| numbers.import(bench, e)));
+            let spin = turn.spin.map(|e| form_of(bench, numbers, partials, e));
+            self.spins.push(DeclaredSpin { axes: turn.axes, against: turn.against, matrix, spin });
+        }
+        for (place, axes) in self.all.list.iter().enumerate() {
+            let own = self.spins.iter().find(|found| found.axes == place);
             let turn = match &axes.turned {
                 Turned::World => Turn::World,
                 Turned::About { axis, turn, angle, .. } => {
@@ -160,13 +210,67 @@ impl Tree {
                     Turn::About { axis: *axis, cosine, sine, rate }
                 }
                 Turned::By { matrix, spin } => {
-                    let matrix = matrix.map(|row| row.map(|e| numbers.import(bench, e)));
+                    let other = self.spins.iter().find(|found| found.axes == axes.parent);
+                    let matrix = match (own, other) {
+                        // Against the neighbour: the product of the turns against the parent of both.
+                        (Some(own), Some(other)) if own.against != axes.parent => {
+                            let (back, images) = (columns(&other.matrix), columns(&own.matrix));
+                            back.map(|row| images.map(|image| numbers.dot(&row, &image)))
+                        }
+                        _ => matrix.map(|row| row.map(|e| numbers.import(bench, e))),
+                    };
                     let spin = spin.map(|e| form_of(bench, numbers, partials, e));
                     Turn::By { matrix, spin }
                 }
             };
             self.axes.push(AxesNode { parent: axes.parent, turn });
         }
+    }
+
+    /// Numbers the pins whose levers are constant.
+    fn number_pins(
+        &mut self,
+        bench: &mut Workbench,
+        numbers: &mut Numbering,
+        system: &Mechanics,
+        pins: &Pins,
+    ) {
+        for pin in &pins.list {
+            let index = |x: ExprId| system.forms.coordinates.iter().position(|y| *y == x);
+            let point = pin.point.map(|x| x.and_then(index));
+            let world = in_world(bench, &pin.declared);
+            let mut others = world.map(|e| rate_of(bench, numbers, system, e));
+            for (form, own) in others.iter_mut().zip(point) {
+                form.terms.retain(|(i, _)| Some(*i) != own);
+            }
+            let mut terms = self.all.terms(bench, &pin.declared);
+            terms.retain(|(axes, _)| *axes > 0);
+            if terms.iter().flat_map(|(_, v)| v).any(|e| !bench.graph.roles(*e).is_constant()) {
+                continue;
+            }
+            let arms =
+                terms.into_iter().map(|(axes, v)| (axes, v.map(|e| numbers.import(bench, e)))).collect();
+            let factor = numbers.import(bench, pin.factor);
+            self.pins.push(PinNode { point, factor, others, arms });
+        }
+    }
+
+    /// A vector of axes in the world, by the turns that are declared.
+    pub(super) fn in_world(&self, numbers: &mut Numbering, axes: usize, v: &Vec3) -> Vec3 {
+        let (mut place, mut v) = (axes, *v);
+        while place > 0 {
+            match self.spins.iter().find(|found| found.axes == place) {
+                Some(DeclaredSpin { matrix, against, .. }) => {
+                    v = matrix.map(|row| numbers.dot(&row, &v));
+                    place = *against;
+                }
+                None => {
+                    v = self.inwards(numbers, place, &v);
+                    place = self.axes[place].parent;
+                }
+            }
+        }
+        v
     }
 
     /// Numbers the points that have none yet.
@@ -270,6 +374,11 @@ impl Tree {
         point > 0 && node.axes == self.points[node.parent].axes && node.rate.is_none() && node.arm.is_none()
     }
 
+    /// Whether general axes hang on others than those against which they are declared.
+    pub(super) fn has_neighbours(&self) -> bool {
+        self.spins.iter().any(|declared| self.axes[declared.axes].parent != declared.against)
+    }
+
     /// The axes of a frame.
     pub(super) fn axes_of(&self, frame: FrameId) -> usize {
         self.all.of(frame)
@@ -347,6 +456,10 @@ pub(super) fn cross(numbers: &mut Numbering, a: &Vec3, b: &Vec3) -> Vec3 {
 
 pub(super) fn plus(numbers: &mut Numbering, a: &Vec3, b: &Vec3) -> Vec3 {
     [0, 1, 2].map(|i| numbers.add(a[i], b[i]))
+}
+
+pub(super) fn columns(m: &Mat3) -> Mat3 {
+    [0, 1, 2].map(|q| m.map(|row| row[q]))
 }
 
 /// `(h.r) 1 - h r^T` for `h = m r`: the inertia of a mass away from a point.

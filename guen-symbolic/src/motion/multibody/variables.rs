@@ -4,6 +4,7 @@
 //! a constant that is known, the velocities are one variable: the spin of a link that is a parameter, the velocity of a hub
 //! that is a radius times a rate, the side of a wheel that cannot move.
 
+use super::combinations::{add_scaled, rates_of_coordinates};
 use super::tree::{RateForm, Tree, Turn};
 use crate::motion::Mechanics;
 use crate::numbering::{Num, Numbering};
@@ -139,6 +140,9 @@ impl Variables {
         let Turn::By { spin, .. } = turn else { return [None; 3] };
         [0, 1, 2].map(|q| {
             let column = self.form(numbers, &spin[q]);
+            if self.etas > 0 && column.iter().all(|entry| *entry == 0) {
+                return Some((self.eta(0), Num::ZERO));
+            }
             let mut nonzero = (0..).zip(&column).filter(|(_, entry)| **entry != 0);
             let (Some((place, factor)), None) = (nonzero.next(), nonzero.next()) else { return None };
             let factor = numbers.with_residue(*factor).filter(|factor| numbers.is_constant(*factor))?;
@@ -270,15 +274,6 @@ impl Variables {
     }
 }
 
-fn add_scaled(sum: &mut [u64], factor: u64, column: &[u64]) {
-    if factor == 0 {
-        return;
-    }
-    for (entry, own) in sum.iter_mut().zip(column) {
-        *entry = field::add(*entry, field::mul(factor, *own));
-    }
-}
-
 /// `R^T` of three columns.
 fn turned(numbers: &Numbering, turn: &Turn, v: &[Vec<u64>; 3]) -> [Vec<u64>; 3] {
     match turn {
@@ -304,40 +299,4 @@ fn turned(numbers: &Numbering, turn: &Turn, v: &[Vec<u64>; 3]) -> [Vec<u64>; 3] 
             sum
         }),
     }
-}
-
-/// `x' = xi_0 + sum_s eta_s xi_s` at the point: for each coordinate the entries `s = 1..l`, then that of `xi_0`.
-fn rates_of_coordinates(
-    bench: &mut Workbench,
-    numbers: &mut Numbering,
-    system: &Mechanics,
-) -> Option<Vec<Vec<u64>>> {
-    let (n, l) = (system.forms.len(), system.forms.degrees);
-    // A x' = eta - a_0, with a column for each of the first l etas and for -a_0.
-    let mut rows: Vec<Vec<u64>> = Vec::new();
-    for (j, form) in system.forms.forms.iter().enumerate() {
-        let mut row: Vec<u64> = Vec::with_capacity(n + l + 1);
-        for a in &form.row {
-            row.push(numbers.at_point(bench, *a)?);
-        }
-        row.extend((0..l).map(|s| u64::from(s == j)));
-        row.push(field::neg(numbers.at_point(bench, form.offset)?));
-        rows.push(row);
-    }
-    for i in 0..n {
-        let pivot = (i..n).find(|r| rows[*r][i] != 0)?;
-        rows.swap(i, pivot);
-        let inverse = field::inverse(rows[i][i])?;
-        for entry in rows[i].iter_mut().skip(i) {
-            *entry = field::mul(*entry, inverse);
-        }
-        let reduced = rows[i].clone();
-        for (r, row) in rows.iter_mut().enumerate() {
-            if r != i && row[i] != 0 {
-                let factor = field::neg(row[i]);
-                add_scaled(&mut row[i..], factor, &reduced[i..]);
-            }
-        }
-    }
-    Some(rows.into_iter().map(|row| row[n..].to_vec()).collect())
 }

@@ -118,6 +118,49 @@ fn unsolvable_manifolds_stay_open() {
     assert_eq!(b.test.residues(&mut b.g, 0, &[sx], true), None);
 }
 
+/// A body whose axis is held by two products beside the length of its quaternion: three quadratic equations, of which not all are solved.
+#[test]
+fn equations_that_are_left_out_leave_questions_open() {
+    let mut b = Bench::new();
+    let ([w, x, y, z], norm) = quaternion(&mut b);
+    let one = b.g.one();
+    let unit = b.g.sub(norm, one);
+    let mut product = |a: [ExprId; 4], sign: i64| {
+        let (first, second) = (b.g.mul(a[0], a[1]), b.g.mul(a[2], a[3]));
+        b.g.linear(&[(first, Rational::integer(2)), (second, Rational::integer(2 * sign))])
+    };
+    let (across, along) = (product([x, z, w, y], 1), product([y, z, w, x], -1));
+    b.test.set_manifold(&mut b.g, &[across, along, unit]);
+    assert!(!b.test.manifold_is_solved() && b.test.manifold_has_points());
+    // The length is kept: what follows from it alone is seen.
+    let square = b.g.powi(norm, 2);
+    assert_eq!(b.on_manifold(square, one), Zero);
+    for equation in [across, along, unit] {
+        assert_ne!(b.test.verdict_on_manifold(&mut b.g, equation), Nonzero);
+    }
+    // The axis is upright, which follows from all three.
+    let terms = [(w, 1), (x, -1), (y, -1), (z, 1)].map(|(q, sign)| (b.g.powi(q, 2), Rational::integer(sign)));
+    let upright = b.g.linear(&terms);
+    let upright = b.g.powi(upright, 2);
+    assert_eq!(b.on_manifold(upright, one), Unknown);
+    assert_eq!(b.on_manifold(w, x), Nonzero);
+    assert_eq!(b.test.rank(&mut b.g, &[vec![across], vec![along]], true), None);
+}
+
+#[test]
+fn what_vanishes_where_others_do() {
+    let mut b = Bench::new();
+    let (q, norm) = quaternion(&mut b);
+    let one = b.g.one();
+    let unit = b.g.sub(norm, one);
+    let multiple = b.g.mul(unit, q[2]);
+    let free = b.g.mul(q[0], q[1]);
+    assert!(b.test.vanish_where(&mut b.g, &[unit], &[multiple, unit]));
+    assert!(!b.test.vanish_where(&mut b.g, &[unit], &[multiple, free]));
+    assert!(b.test.vanish_where(&mut b.g, &[unit, q[1]], &[multiple, free]));
+    assert!(!b.test.vanish_where(&mut b.g, &[], &[multiple]));
+}
+
 /// A foot flat on the ground: heel and toe are at its height only where `sin(foot)` vanishes, which residues of angles do not, or where the
 /// foot has no length, which no constant is made to have. The search for points modulo the prime ends at once.
 #[test]
