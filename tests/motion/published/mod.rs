@@ -3,6 +3,7 @@
 //! Each module names the source of its figures and says how many digits of them are right. Tolerances are those digits, or
 //! what the method of the test can reach where that is less.
 
+mod bars;
 mod bicycle;
 mod closed_forms;
 mod disc;
@@ -10,6 +11,7 @@ mod governor;
 mod linkages;
 mod rattleback;
 mod tops;
+mod wheels;
 
 /// Fails where two lists differ by more than the tolerance, relative to the larger of the expected entry and `scale`.
 #[track_caller]
