@@ -114,7 +114,7 @@ fn mechanisms() -> String {
 }
 
 /// The declaration at a place in a file.
-fn declared(source: TokenStream, place: usize) -> TokenStream {
+pub fn declared(source: TokenStream, place: usize) -> TokenStream {
     let tokens: Vec<TokenTree> = source.into_iter().collect();
     let mut found = tokens.windows(3).filter_map(|three| match three {
         [TokenTree::Ident(name), TokenTree::Punct(mark), TokenTree::Group(group)]
