@@ -237,7 +237,7 @@ fn bricard_s_ring_moves_alike_in_all_coordinates() {
 fn platform(coordinates: &str, orientation: &str, unit: &str) -> String {
     let legs = |line: &str| {
         let own = |i: usize| {
-            let side = if i % 2 == 0 { "-" } else { "" };
+            let side = if i.is_multiple_of(2) { "-" } else { "" };
             line.replace('#', &i.to_string())
                 .replace('~', side)
                 .replace('@', &(2 * ((i - 1) / 2)).to_string())

@@ -71,12 +71,13 @@ fn angle_at(time: f64) -> f64 {
 fn bars_in_all_angles_run_to_the_first_fold_and_say_which_bars_lie_in_line() {
     let system = Bars::default().prepare().unwrap();
     let start = bars::State { a0: UPRIGHT, a1: UPRIGHT, a2: UPRIGHT, turn: -1.0, ..Default::default() };
-    let run = |end| Integration::new(&system, 0.0, &start.into()).run(&Dop853::new(1e-13, 1e-13), end);
+    let entries: [f64; 6] = start.into();
+    let method = Dop853::new(1e-13, 1e-13);
     // 0.03 s before the fold.
-    let before = run(0.68).unwrap().state;
+    let before = Integration::new(&system, 0.0, &entries).run(&method, 0.68).unwrap().state;
     let angle = angle_at(0.68);
     close("angles", &before[..5], &[angle, angle, angle, 0.0, 0.0], 1.0, 1e-11);
-    let error = run(10.0).unwrap_err();
+    let error = Integration::new(&system, 0.0, &entries).run(&method, 10.0).unwrap_err();
     let Cause::ChartSingularity { found, function, .. } = error.cause else { panic!("{error:?}") };
     assert!(["-sin(a1 - b1)", "-sin(a2 - b2)"].contains(&bars::DOMAIN[function]), "{error:?}");
     // All rods lie on the ground.
