@@ -6,6 +6,7 @@
 mod large_systems;
 
 mod costs;
+mod linearizations;
 mod lines;
 mod messages;
 mod series;

@@ -45,6 +45,47 @@ guen::mechanical_system! {
     }
 }
 
+guen::mechanical_system! {
+    /// The same bicycle in more coordinates than it has positions: its rear hub anywhere in space, both wheels held on the ground by holonomic
+    /// equations, and rolling along it only.
+    pub system FreeBicycle {
+        constants {
+            rr > 0, rf > 0, base > 0, trail, rake, mr > 0, mb > 0, mh > 0, mf > 0, I > 0, J > 0, K > 0, L > 0, g = 9.81
+        }
+        inputs { pedal, handle }
+        coordinates { x, y, z, yaw, lean, pitch, steer, rear, front }
+        let up = vec(0, 0, 1);
+        let F = rot_z(yaw)*rot_x(lean);
+        let B = F*rot_y(pitch);
+        let H = B*rot_y(rake)*rot_z(steer);
+        let W = H*rot_y(front);
+        let hub = vec(x, y, z);
+        let under = hub - rr*F.z;
+        let nose = hub + base*B.x;
+        let tip = nose + trail*H.x - base/2*H.z;
+        let contact = tip - rf*unit(up - inner(up, H.y)*H.y);
+        bodies {
+            back { mass: mr, inertia: diag(I, 2*I, I), center: hub, orientation: F*rot_y(rear) }
+            frame { mass: mb, inertia: sym(J, K, L, 0, 0, -J/4), center: hub + base/2*B.x + base/3*B.z, orientation: B }
+            fork { mass: mh, inertia: diag(I, I, I/3), center: nose + trail/2*H.x, orientation: H }
+            wheel { mass: mf, inertia: diag(I, 2*I, I), center: tip, orientation: W }
+        }
+        gravity = -g*up;
+        parameters { fall = dot(lean); turn = dot(steer); drive = dot(rear); }
+        holonomic { standing: under.z = 0; touching: contact.z = 0; }
+        constraints {
+            behind_x: back.velocity_at(under).x = 0;
+            behind_y: back.velocity_at(under).y = 0;
+            ahead_x: wheel.velocity_at(contact).x = 0;
+            ahead_y: wheel.velocity_at(contact).y = 0;
+        }
+        forces {
+            pedal*F.y along back.angular_velocity - frame.angular_velocity;
+            handle*H.z along fork.angular_velocity - frame.angular_velocity;
+        }
+    }
+}
+
 rattleback!(guen::mechanical_system);
 
 const RR: f64 = 0.35;
@@ -146,6 +187,60 @@ fn bicycle() {
         assert!(driven.rhs(0.0, &state).iter().all(|e| e.is_finite()), "{state:?}");
         let reactions: [f64; 5] = system.reactions(0.0, &state.into(), &inputs).into();
         check(&driven, &hand, 0.0, &state, &reactions, 8);
+    }
+}
+
+#[test]
+fn bicycle_on_holonomic_equations_moves_as_the_other() {
+    macro_rules! system {
+        ($system:ident) => {
+            $system {
+                rr: RR,
+                rf: RF,
+                base: BASE,
+                trail: TRAIL,
+                rake: RAKE,
+                mr: 2.0,
+                mb: 60.0,
+                mh: 4.0,
+                mf: 1.5,
+                I: 0.1,
+                J: 4.0,
+                K: 5.0,
+                L: 2.0,
+                g: 9.81,
+            }
+        };
+    }
+    let other = system!(Bicycle).prepare().unwrap();
+    let free = system!(FreeBicycle).prepare().unwrap();
+    let mut numbers = Numbers::new();
+    for round in 0..20 {
+        let mut state = numbers.state::<11>().map(|e| 0.4 * e);
+        state[10] *= 20.0;
+        if round == 0 {
+            state = [0.0; 11];
+        }
+        let [pedal, handle] = numbers.state::<2>();
+        let expected = other.driven(bicycle::Inputs { pedal, handle }).rhs(0.0, &state);
+        let [x, y, yaw, lean, ..] = state;
+        // The hub stands over the contact.
+        let [(sin_yaw, cos_yaw), (sin_lean, cos_lean)] = [yaw.sin_cos(), lean.sin_cos()];
+        let (ahead, aside) = (sin_yaw * sin_lean, -cos_yaw * sin_lean);
+        let mut placed = [0.0; 12];
+        placed[..3].copy_from_slice(&[x + RR * ahead, y + RR * aside, RR * cos_lean]);
+        placed[3..].copy_from_slice(&state[2..]);
+        let found = free.driven(free_bicycle::Inputs { pedal, handle }).rhs(0.0, &placed);
+        let [x_rate, y_rate, yaw_rate, lean_rate, ..] = expected;
+        let hub = [
+            x_rate + RR * (cos_yaw * sin_lean * yaw_rate + sin_yaw * cos_lean * lean_rate),
+            y_rate + RR * (sin_yaw * sin_lean * yaw_rate - cos_yaw * cos_lean * lean_rate),
+            -RR * sin_lean * lean_rate,
+        ];
+        for (k, (found, expected)) in found.iter().zip(hub.iter().chain(&expected[2..])).enumerate() {
+            let size = expected.abs().max(1.0);
+            assert!((found - expected).abs() < 1e-12 * size, "{k}: {found} instead of {expected}");
+        }
     }
 }
 

@@ -9,6 +9,7 @@ mod order;
 mod provide;
 mod redundant;
 mod resets;
+mod rolling;
 mod states;
 
 use std::collections::{BTreeMap, BTreeSet};

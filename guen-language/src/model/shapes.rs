@@ -33,7 +33,8 @@ fn is_moving(graph: &Graph, v: &Vector) -> bool {
     v.iter().any(|e| graph.roles(*e).meets(MOVING))
 }
 
-fn axis(graph: &Graph, i: usize) -> Vector {
+/// A unit vector along an axis.
+pub(super) fn axis(graph: &Graph, i: usize) -> Vector {
     let mut axis = [graph.zero(); 3];
     axis[i] = graph.one();
     axis
@@ -87,6 +88,11 @@ impl Shapes {
     /// Whether a vector is known to be a velocity in space.
     pub(super) fn is_velocity(&self, v: &Vector) -> bool {
         self.velocities.contains_key(v)
+    }
+
+    /// The components of a velocity, where it was met as a vector.
+    pub(super) fn written_out(&self, velocity: &Velocity) -> Option<Vector> {
+        self.velocities.iter().find(|(_, known)| *known == velocity).map(|(vector, _)| *vector)
     }
 
     /// A scalar as a form, where structure is known.
@@ -253,6 +259,14 @@ impl Shapes {
         if self.forms.contains_key(&a) || self.forms.contains_key(&b) {
             let shape = self.form_or_rest(a).plus(graph, &self.form_or_rest(b));
             self.remember_form(graph, sum, shape);
+        }
+        // A height above another level.
+        for (height, level) in [(a, b), (b, a)] {
+            if graph.roles(level).is_constant()
+                && let Some(known) = self.heights.get(&height).cloned()
+            {
+                self.heights.entry(sum).or_insert(known);
+            }
         }
     }
 

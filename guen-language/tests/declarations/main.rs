@@ -33,6 +33,7 @@ mod redundant;
 mod regular;
 mod resets_of_scenes;
 mod restricted;
+mod rings;
 mod rows_of_bars;
 mod rules_of_bodies;
 mod scenes;

@@ -150,6 +150,39 @@ fn loops_edges_and_moving_belts_keep_what_they_are_made_of() {
     assert!(!disc.contains("unused") && !disc.contains("form whole"), "{disc}");
 }
 
+/// The height of a point of contact changes as fast as the body moves there, and is written so where other constraints speak of that velocity.
+#[test]
+fn the_height_of_a_contact_is_a_component_of_a_velocity() {
+    let disc = |rows: &str| {
+        structure(&format!(
+            "system Edge {{
+                constants {{ m > 0, I > 0, J > 0, r > 0 }}
+                coordinates {{ x, y, z, yaw, lean, turn }}
+                let R = rot_z(yaw)*rot_x(lean)*rot_z(turn);
+                let up = vec(0, 0, 1);
+                let p = vec(x, y, z);
+                let low = p - r*unit(up - inner(up, R.z)*R.z);
+                bodies {{ disc {{ mass: m, inertia: diag(I, I, J), center: p, orientation: R }} }}
+                holonomic {{ on: low.z = 0; high: (p + R.z).z = 2; }}
+                constraints {{ {rows} }}
+            }}"
+        ))
+    };
+    let rolling = "form on: along (0, 0, 1): rate of ((x, y, z)) + spin of R x (";
+    for rows in [
+        "east: disc.velocity_at(low).x = 0; north: disc.velocity_at(low).y = 0;",
+        "track: inner(cross(R.z, up), disc.velocity_at(low)) = 0;",
+    ] {
+        let graph = disc(rows);
+        assert!(
+            graph.contains(rolling)
+                && graph.contains("form high: along (0, 0, 1): rate of ((x, y, z) + #2*(0, 0, 1))\n"),
+            "{graph}"
+        );
+    }
+    assert!(!disc("still: dot(yaw) = 0;").contains(rolling));
+}
+
 /// The page that tells the way from a body to its rates shows the graph of its own declaration.
 #[test]
 fn the_page_shows_the_graph_of_its_declaration() {

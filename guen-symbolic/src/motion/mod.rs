@@ -1,9 +1,21 @@
-//! Derives the equations of motion from operators and energies, (2.1)-(2.10), by two independent routes.
+//! Derives the equations of motion from operators and energies, (2.1)-(2.10).
+//!
+//! In the order of the data, which is the order of reading:
+//!
+//! 1. `declaration`, `graph`: a system as it was declared; frames, places, bodies, forms and loads as a graph.
+//! 2. `derivation`: the whole, from the operators on; `frame`, `kinetic`, `velocity_forms`: velocities and energies along the operators.
+//! 3. `stated`: the equations by the definition (`poincare`) and by projection (`projection`), compared; `large` where they would be too long.
+//! 4. `formulations`: the list of ways to the rates. Of bodies: `multibody`, with a plan of its own, outwards and inwards. Of equations as they are
+//!    stated: `solve`, `symmetry`, `recursive`, `body_axes`, `constraint_forces`. In other parameters, where a system is stated again
+//!    (`restated`): `spins`, `headings`, `base_parameters`.
+//! 5. `proof`, `lagrange`: whatever was found, held against (2.7) at points modulo p.
+//! 6. `energy`, `freed`, `state_rates`: what follows beside the rates.
 
 mod base_parameters;
 mod body_axes;
 mod cancellation;
 mod composed;
+mod constancy;
 mod constraint_forces;
 mod declaration;
 mod dependence;

@@ -14,7 +14,7 @@
 //! their pole. Terms of the forms without velocities are left out here.
 
 use super::body_axes;
-use super::derivation::rests;
+use super::constancy::rests;
 use super::restated::Restated;
 use super::restriction::{self, Restriction};
 use super::velocity_forms::VelocityPartials;

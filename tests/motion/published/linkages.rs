@@ -50,9 +50,8 @@ guen::mechanical_system! {
     }
 }
 
-#[test]
-fn andrews_squeezer_ends_where_it_is_published_to() {
-    let system = Squeezer::default().prepare().unwrap();
+/// The published start, put onto the constraints.
+pub(super) fn squeezer_start(system: &squeezer::Prepared) -> [f64; 8] {
     let published = [
         -0.0617138900142764496,
         0.0,
@@ -66,6 +65,13 @@ fn andrews_squeezer_ends_where_it_is_published_to() {
     close("start", &<[f64; 7]>::from(start), &published, 1.0, 1e-15);
     let mut state = [0.0; 8];
     state[..7].copy_from_slice(&<[f64; 7]>::from(start));
+    state
+}
+
+#[test]
+fn andrews_squeezer_ends_where_it_is_published_to() {
+    let system = Squeezer::default().prepare().unwrap();
+    let state = squeezer_start(&system);
     let end = Integration::new(&projected(&system), 0.0, &state)
         .run(&Dop853::new(1e-13, 1e-13), 0.03)
         .unwrap()

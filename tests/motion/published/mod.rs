@@ -3,13 +3,17 @@
 //! Each module names the source of its figures and says how many digits of them are right. Tolerances are those digits, or
 //! what the method of the test can reach where that is less.
 
+mod bars;
 mod bicycle;
+mod bricard;
 mod closed_forms;
 mod disc;
 mod governor;
 mod linkages;
 mod rattleback;
+mod times;
 mod tops;
+mod wheels;
 
 /// Fails where two lists differ by more than the tolerance, relative to the larger of the expected entry and `scale`.
 #[track_caller]
@@ -32,6 +36,10 @@ fn the_page_says_what_the_rates_cost() {
         ("stiff flyball governor", governor::governor::COST),
         ("rattleback", rattleback::rattleback::COST),
         ("rolling disc", disc::disc::COST),
+        ("rolling wheel", wheels::rolling_wheel::COST),
+        ("driven wheel set", wheels::wheel_set::COST),
+        ("two four-bars in a row", bars::bars::COST),
+        ("Bricard's mechanism", bricard::bricard::COST),
     ];
     let page = include_str!("../../../docs/published.md");
     let differing = costs.iter().filter(|(name, cost)| {

@@ -6,8 +6,8 @@ use guen::prelude::*;
 
 rattleback!(guen::mechanical_system);
 
-#[test]
-fn rattleback_turns_back_as_computed_from_its_vector_equations() {
+/// The stone with the published constants.
+pub(super) fn stone() -> rattleback::Prepared {
     let system = Rattleback {
         m: 1.0,
         a: 0.2,
@@ -20,10 +20,18 @@ fn rattleback_turns_back_as_computed_from_its_vector_equations() {
         D: -0.00002,
         g: 9.81,
     };
-    let system = system.prepare().unwrap();
+    system.prepare().unwrap()
+}
+
+/// The published start.
+pub(super) fn start() -> rattleback::State {
     let half_degree = 0.5_f64.to_radians();
-    let start =
-        rattleback::State { roll: half_degree, pitch: half_degree, spin_z: -5.0, ..Default::default() };
+    rattleback::State { roll: half_degree, pitch: half_degree, spin_z: -5.0, ..Default::default() }
+}
+
+#[test]
+fn rattleback_turns_back_as_computed_from_its_vector_equations() {
+    let (system, start) = (stone(), start());
     let end = Integration::new(&system, 0.0, &start.into()).run(&Dop853::new(1e-13, 1e-13), 5.0);
     let end: rattleback::State = end.unwrap().state.into();
     let angles = [-0.0469311349, 0.0144529744, -2.7501613135];

@@ -9,7 +9,8 @@
 //! profile too, so these are the times that a user waits. They are taken by a macro inside of rustc (`workshop/guen-expansion-timing`),
 //! whose lexer and tokens are others than those that a program without a compiler has. The declarations of the examples
 //! are cut out of their files; beside them stand the chains of the benchmarks, with absolute angles and with relative ones,
-//! and the largest systems of the tests: vehicles, snakes, contacts with a square root, moving belts, prescribed motions.
+//! and the largest systems of the tests: vehicles, snakes, contacts with a square root, moving belts, prescribed motions, an arm, a quadruped and
+//! a humanoid.
 //! Systems with five scenes stand below themselves without: what scenes cost while the macro runs. In the program a scene
 //! that is not used costs nothing, for what is emitted is generic.
 //!
@@ -22,6 +23,7 @@ use std::process::{Command, ExitCode};
 use std::{env, fs, io};
 
 use guen_benchmarks::chains::{Angles, declaration as declaration_of_chain};
+use guen_benchmarks::{arms, robots};
 use guen_language::expand;
 use guen_study::{Progress, Table};
 use proc_macro2::{TokenStream, TokenTree};
@@ -39,7 +41,8 @@ const FILES: [(&str, &str); 5] = [
     ("wheel on ice", include_str!("../../../examples/spinning_wheel.rs")),
 ];
 const CHAINS: [usize; 4] = [2, 5, 10, 20];
-const SNAKES: [usize; 3] = [5, 7, 10];
+const SNAKES: [usize; 4] = [5, 6, 7, 10];
+
 fn main() -> ExitCode {
     if !cfg!(debug_assertions) {
         println!(
@@ -64,6 +67,9 @@ fn main() -> ExitCode {
     add("tricycle".to_owned(), large_systems::TRICYCLE);
     add("ellipsoid".to_owned(), large_systems::LADEN_ELLIPSOID);
     add("biped".to_owned(), large_systems::BIPED);
+    add("arm of 6".to_owned(), &arms::declaration("Arm", &arms::AXES[..6]));
+    add("quadruped".to_owned(), &robots::quadruped());
+    add("humanoid".to_owned(), &robots::declaration(&robots::HUMANOID));
 
     let compiler = match Compiler::new() {
         Ok(compiler) => compiler,

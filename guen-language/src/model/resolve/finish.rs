@@ -110,6 +110,7 @@ impl<'a> Resolver<'a, '_> {
         if forms.len() != self.coordinates.len() || !has_energy {
             return None;
         }
+        rolling::join(&mut self.eval, &mut raw, degrees);
         let bench = &mut self.eval.bench;
         let mut force_function: Vec<ExprId> = self.force_function.into_iter().collect();
         if let Some(gravity) = self.gravity {
