@@ -19,6 +19,7 @@ mod bricard;
 mod by_hand;
 mod expansion;
 mod floating;
+mod hinges;
 mod hoop;
 mod linkages;
 mod manifold;

@@ -117,7 +117,7 @@ fn rods_on_hinges_move_as_in_angles_whichever_way_their_axes_point() {
             for branch in 0..1 << (count - 1) {
                 let state = State::new(count, branch);
                 let value = |symbol: SymbolId| state.value(&graph.symbol_info(symbol).name);
-                let rates = evaluated(level, function::RHS, &value).unwrap();
+                let rates = evaluated(level, function::RHS, value).unwrap();
                 let (moving, turning) = rates.split_at(7 * count);
                 let step = 1e-5;
                 let (after, before) = (state.coordinates(step), state.coordinates(-step));
@@ -128,7 +128,7 @@ fn rods_on_hinges_move_as_in_angles_whichever_way_their_axes_point() {
                 derived(&state.in_angles(), |in_angles| {
                     let graph = &in_angles.model.bench.graph;
                     let value = |symbol: SymbolId| state.value(&graph.symbol_info(symbol).name);
-                    let expected = evaluated(&in_angles.system, function::RHS, &value).unwrap();
+                    let expected = evaluated(&in_angles.system, function::RHS, value).unwrap();
                     for (own, other) in turning.iter().zip(&expected[count..]) {
                         let size = 1.0 + other.abs();
                         assert!((own - other).abs() < 1e-12 * size, "{count} {branch}: {own} and {other}");

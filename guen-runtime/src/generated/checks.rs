@@ -136,6 +136,26 @@ pub fn rounded_once<R: Real, const N: usize>(values: [R; N]) -> [RunningError<R>
     values.map(RunningError::once)
 }
 
+/// Positions, each rounded once, and as uncertain as one of at least `1e-10` of the largest: an equation that is a product of positions, as
+/// `x z + w y = 0` of a hinge, has nothing but roundings in it where `x` and `y` vanish.
+///
+/// ```
+/// use guen_runtime::checks::{furthest, positions_rounded_once};
+/// let off = |x: f64| {
+///     let [x, y, z, w] = positions_rounded_once([x, 0.0, 0.6, 0.8]);
+///     furthest(&[x * z + w * y])
+/// };
+/// assert!(off(1e-17) < 1e-6 && off(1e-4) > 0.1);
+/// ```
+#[inline]
+pub fn positions_rounded_once<R: Real, const N: usize>(positions: [R; N]) -> [RunningError<R>; N] {
+    let least = largest(&positions) * R::from_ratio(1, 10_000_000_000);
+    positions.map(|value| {
+        let size = value.abs();
+        RunningError { value, error: size.where_above(least, size, least) }
+    })
+}
+
 /// Returns what is left of each value beside its rounding.
 ///
 /// ```

@@ -16,7 +16,8 @@ pub struct Invariants<R> {
     /// A size for errors of the energy to be relative to, such as `|T| + |U|`: not negative, in units of energy.
     pub scale: R,
     /// The largest left side of the constraints on positions, each relative to the size of its terms: in units of
-    /// what a relative change of one in everything that enters would make of it. Zero without any.
+    /// what a relative change of one in everything that enters would make of it, positions of less than `1e-10` of the largest
+    /// counted as that. Zero without any.
     pub residual: R,
     /// The distance of carried functions from their values, relative to one and their size; zero without any.
     pub carried: R,

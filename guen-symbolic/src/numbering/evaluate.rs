@@ -12,12 +12,19 @@ impl Numbering {
         roots: &[Num],
         values: &dyn Fn(SymbolId) -> f64,
     ) -> Vec<f64> {
-        let leaves: Vec<(usize, ExprId)> = self
-            .ops
-            .iter()
-            .enumerate()
-            .filter_map(|(index, op)| if let Op::Expr(e) = op { Some((index, *e)) } else { None })
-            .collect();
+        // The expressions of the graph that they are made of.
+        let mut is_met = vec![false; self.ops.len()];
+        let mut stack: Vec<usize> = roots.iter().map(|root| root.index()).collect();
+        let mut leaves: Vec<(usize, ExprId)> = Vec::new();
+        while let Some(place) = stack.pop() {
+            if std::mem::replace(&mut is_met[place], true) {
+                continue;
+            }
+            match self.ops[place] {
+                Op::Expr(e) => leaves.push((place, e)),
+                _ => stack.extend(self.children(place).iter().flatten().map(|child| child.index())),
+            }
+        }
         let expressions: Vec<ExprId> = leaves.iter().map(|(_, e)| *e).collect();
         let mut found: Vec<Option<f64>> = vec![None; self.ops.len()];
         for ((index, _), value) in leaves.iter().zip(evaluate_f64(graph, &expressions, values)) {

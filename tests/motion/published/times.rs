@@ -63,7 +63,7 @@ fn times() {
     timed!("four-bars, 10 s", bars, start, dop(1e-9), 10.0);
 
     let ring = bricard::Bricard::default().prepare().unwrap();
-    let (_, start) = bricard::first_row();
+    let start = bricard::cube();
     timed!("Bricard, 10 s", projected(&ring), start, dop(1e-9), 10.0);
 
     timed!("rattleback, 5 s", rattleback::stone(), rattleback::start(), dop(1e-12), 5.0);

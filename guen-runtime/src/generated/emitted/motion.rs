@@ -446,7 +446,7 @@ macro_rules! conserved {
             &$crate::checks::rounded(&$prepared.constants),
             &$crate::PreparedValues::rounded_once(&$prepared.hoisted),
             $crate::RunningError::once($t),
-            &$x.map($crate::RunningError::once),
+            &$crate::checks::positions_rounded_once($x),
         ))
     };
 }

@@ -221,6 +221,7 @@ fn assembled<T>(
         numbers,
         tree: &tree,
         variables: &variables,
+        forms: &system.forms.forms,
         known: FastMap::default(),
         solves_back: way.solves_back,
     };

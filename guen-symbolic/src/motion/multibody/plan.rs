@@ -8,10 +8,11 @@ use super::declared::Group;
 use super::definitions::{Def, Equation, Plan};
 use super::forms::Functional;
 use super::relations::{Linear, back, link, raw_kinematic, reduced, solved, turned_components};
-use super::safety::{STATES, ZERO_BELOW, real_value};
+use super::safety::is_safe;
 use super::tree::{RateForm, Tree, Turn};
 use super::variables::{Class, Kind, Var, Variables};
 use crate::algebra::FastMap;
+use crate::geometry::Form;
 use crate::numbering::{Num, Numbering};
 use crate::workbench::Workbench;
 use crate::zero::field;
@@ -22,6 +23,8 @@ pub(super) struct Planner<'a> {
     pub(super) numbers: &'a mut Numbering,
     pub(super) tree: &'a Tree,
     pub(super) variables: &'a Variables,
+    /// The forms of the system, dependent where no rates are.
+    pub(super) forms: &'a [Form],
     /// Divisors that were looked at, and whether they are safe.
     pub(super) known: FastMap<Num, bool>,
     /// Whether kinematics of velocities that are determined otherwise determine others: tried where nothing is found without.
@@ -299,10 +302,8 @@ impl Planner<'_> {
         if self.numbers.is_constant(pivot) {
             return true;
         }
-        let Planner { bench, numbers, known, .. } = self;
-        *known.or_insert_with(pivot, || {
-            (0..STATES).all(|state| real_value(bench, numbers, pivot, state).abs() > ZERO_BELOW)
-        })
+        let Planner { bench, numbers, known, forms, .. } = self;
+        *known.or_insert_with(pivot, || is_safe(bench, numbers, forms, pivot))
     }
 
     /// The vector of a variable over parameters and unknowns of the core, modulo the prime.
