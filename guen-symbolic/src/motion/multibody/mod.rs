@@ -90,30 +90,27 @@ pub(super) fn rates(
     if on_manifold && rolls && !is_alone {
         return None;
     }
-    // What is pinned in the world may be found from its pins, where it is not found otherwise.
-    let ways = if system.holonomic.is_empty() { &[false][..] } else { &[false, true] };
-    let mut by = |bench: &mut Workbench, way| {
-        (0..POINTS)
-            .find_map(|point| attempt(bench, system, frame, partials, (point, on_manifold), way, &is_stated))
+    let mut by = |bench: &mut Workbench, inertial| {
+        (0..POINTS).find_map(|point| {
+            attempt(bench, system, frame, partials, (point, on_manifold), inertial, &is_stated)
+        })
     };
-    let by_bodies =
-        ways.iter().find_map(|solves_back| by(bench, Way { solves_back: *solves_back, by_mass: false }));
-    let by_bodies = by_bodies?;
+    let by_bodies = by(bench, InertialForces::OfBodies)?;
     if !inertial_forces::are_derivatives(bench, system, frame) {
         return Some(by_bodies);
     }
-    let by_mass = by(bench, Way { solves_back: false, by_mass: true });
+    let by_mass = by(bench, InertialForces::OfTheMass);
     let cost = |found: &Found| weighted_cost(&bench.graph, &found.rates);
     Some(by_mass.filter(|found| cost(found) < cost(&by_bodies)).unwrap_or(by_bodies))
 }
 
-/// A way to put up the equations.
-#[derive(Clone, Copy, Default)]
-struct Way {
-    /// Whether kinematics of velocities that are determined otherwise determine others.
-    solves_back: bool,
-    /// Whether inertial forces are derivatives of the mass matrix, and not those of the bodies.
-    by_mass: bool,
+/// The inertial forces in the equations.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum InertialForces {
+    /// The inertial forces of the bodies.
+    OfBodies,
+    /// Derivatives of the mass matrix.
+    OfTheMass,
 }
 
 fn has_general_turns(system: &Mechanics) -> bool {
@@ -165,10 +162,14 @@ pub(super) fn freed(
     let mut attempt = |free: &Mechanics, point| {
         let generation = bench.zero.generation();
         let mut own = Numbering::new(&mut bench.graph, (point, on_manifold), generation);
-        let (mass, forces) =
-            assembled(bench, &mut own, (free, l, Way::default()), frame, partials, |assembly, _| {
-                assembly.at_the_root()
-            })?;
+        let (mass, forces) = assembled(
+            bench,
+            &mut own,
+            (free, l, InertialForces::OfBodies),
+            frame,
+            partials,
+            |assembly, _| assembly.at_the_root(),
+        )?;
         if !own.is_sound() {
             return None;
         }
@@ -196,7 +197,7 @@ pub(super) fn freed(
 fn assembled<T>(
     bench: &mut Workbench,
     numbers: &mut Numbering,
-    (system, moving, way): (&Mechanics, usize, Way),
+    (system, moving, inertial): (&Mechanics, usize, InertialForces),
     frame: &Frame,
     partials: &mut VelocityPartials,
     then: impl FnOnce(&mut Assembly<'_>, Vec<Num>) -> Option<T>,
@@ -223,7 +224,6 @@ fn assembled<T>(
         variables: &variables,
         forms: &system.forms.forms,
         known: FastMap::default(),
-        solves_back: way.solves_back,
     };
     let plan = planner.plan(declared.rows, &declared.groups, &needed)?;
     let core = Core::new(&mut planner, &plan)?;
@@ -234,7 +234,7 @@ fn assembled<T>(
     for (symbol, value) in system.velocities.iter().zip(&velocities) {
         kinematics.numbers.define(*symbol, *value);
     }
-    if way.by_mass {
+    if inertial == InertialForces::OfTheMass {
         // The rows of other energies and of strained frames contain their inertial forces: with the derivatives they would count twice.
         if !strains.is_empty() || beside.iter().any(|row| !row.inertia.is_empty()) {
             return None;
@@ -257,16 +257,17 @@ fn attempt(
     frame: &Frame,
     partials: &mut VelocityPartials,
     point: (usize, bool),
-    way: Way,
+    inertial: InertialForces,
     is_stated: impl Fn(u64) -> bool,
 ) -> Option<Found> {
     let (n, l) = (system.forms.len(), system.forms.degrees);
     let generation = bench.zero.generation();
     let mut own = Numbering::new(&mut bench.graph, point, generation);
-    let solved = assembled(bench, &mut own, (system, l, way), frame, partials, |assembly, velocities| {
-        let (accelerations, pivots, root) = assembly.solve()?;
-        Some((velocities, accelerations, pivots, root))
-    });
+    let solved =
+        assembled(bench, &mut own, (system, l, inertial), frame, partials, |assembly, velocities| {
+            let (accelerations, pivots, root) = assembly.solve()?;
+            Some((velocities, accelerations, pivots, root))
+        });
     let (velocities, accelerations, pivots, root) = solved?;
     if !own.is_sound() {
         return None;

@@ -27,8 +27,6 @@ pub(super) struct Planner<'a> {
     pub(super) forms: &'a [Form],
     /// Divisors that were looked at, and whether they are safe.
     pub(super) known: FastMap<Num, bool>,
-    /// Whether kinematics of velocities that are determined otherwise determine others: tried where nothing is found without.
-    pub(super) solves_back: bool,
 }
 
 impl Planner<'_> {
@@ -204,7 +202,7 @@ impl Planner<'_> {
                     break;
                 }
             }
-            if !progress && !self.turn_back(plan) && !self.solve_back(plan) {
+            if !progress && !self.turn_back(plan) {
                 return;
             }
         }
@@ -231,29 +229,6 @@ impl Planner<'_> {
                 for (image, source) in images.iter().zip(open) {
                     plan.defs[source.0 as usize] = Some(Def::Back(*image));
                 }
-                return true;
-            }
-        }
-        false
-    }
-
-    /// Determines the one velocity that is open in the kinematics of one that a form determines, or that is turned back: of a place in
-    /// the world that is pinned to a body, say.
-    fn solve_back(&mut self, plan: &mut Plan) -> bool {
-        if !self.solves_back {
-            return false;
-        }
-        for index in 0..self.variables.len() {
-            let var = Var(index as u32);
-            if !matches!(plan.def(var), Some(Def::Row(_) | Def::Back(_))) {
-                continue;
-            }
-            let Some((terms, _)) = link(self.numbers, self.tree, self.variables, var) else { continue };
-            let open: Vec<&(Var, Num)> = terms.iter().filter(|(var, _)| plan.def(*var).is_none()).collect();
-            if let [(other, pivot)] = open[..]
-                && self.is_safe(*pivot)
-            {
-                plan.defs[other.0 as usize] = Some(Def::Link(var));
                 return true;
             }
         }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::assembly::{Assembly, ORDERS};
 use super::kinematics::Kinematics;
 use super::variables::{Kind, Var};
-use super::{POINTS, Way, assembled};
+use super::{InertialForces, POINTS, assembled};
 use crate::geometry::Operators;
 use crate::motion::velocity_forms::VelocityPartials;
 use crate::motion::{Frame, Mechanics};
@@ -29,7 +29,7 @@ pub fn elimination_text(bench: &mut Workbench, system: &Mechanics) -> Option<Str
     let operators = Operators::new(bench, &system.forms).ok()?;
     let frame = Frame::new(bench, system, operators);
     let mut partials = VelocityPartials::of_system(bench, system);
-    let context = (system, system.forms.degrees, Way::default());
+    let context = (system, system.forms.degrees, InertialForces::OfBodies);
     (0..POINTS).find_map(|point| {
         let generation = bench.zero.generation();
         let mut numbers = Numbering::new(&mut bench.graph, (point, false), generation);
