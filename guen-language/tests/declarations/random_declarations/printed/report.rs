@@ -87,6 +87,12 @@ pub fn checked(text: &str, with_outline: bool) -> Option<Checked> {
         let is_in_modes = !in_modes.is_empty();
         let has_branches = system.contacts.as_ref().is_some_and(|facts| !facts.branches.is_empty());
         let has_switches = [&system].into_iter().chain(&scenes).any(|level| !level.switches.is_empty());
+        let names: Vec<String> = model.forms.iter().map(|form| form.name.clone()).collect();
+        let has = |whole: &str, axis: &str| names.contains(&format!("{whole}_{axis}"));
+        let is_without_first_or_second = |item: &String| {
+            let field = item.rsplit(' ').next().and_then(|field| field.strip_suffix("_z"));
+            field.is_some_and(|whole| has(whole, "x") != has(whole, "y"))
+        };
         let items = emit::emit(Derived { model, system, scenes, in_modes });
         let missing = crate::outline::missing(&declaration, items).into_iter();
         let missing = missing.filter(|item| is_code || !linearized(item));
@@ -97,6 +103,8 @@ pub fn checked(text: &str, with_outline: bool) -> Option<Checked> {
         let missing = missing.filter(|item| !has_units || !with_units(item));
         // Nor is it known which rates of coordinates complete the parameters.
         let missing = missing.filter(|item| !is_chosen || !item.contains("_rate"));
+        // Nor which component of a vector says `0 = 0`: it has the first two.
+        let missing = missing.filter(|item| !is_without_first_or_second(item));
         // Nor how many zeros change the formula of the rates.
         let missing = missing.filter(|item| !has_switches || !item.contains("const SWITCHES"));
         // Nor which rows of a mode depend on others.
