@@ -36,7 +36,7 @@ fn plus(a: Vector, b: Vector, factor: f64) -> Vector {
     [0, 1, 2].map(|k| a[k] + factor * b[k])
 }
 
-/// What a list of functions is at named values; all else is `1.3`.
+/// The values of a list of functions where symbols have the values named, and all others `1.3`.
 fn at(derived: &Derived<'_>, name: &str, values: &[(String, f64)]) -> Vec<f64> {
     let value = |symbol| {
         let name = derived.model.bench.graph.symbol_info(symbol).name.as_str();

@@ -74,7 +74,7 @@ fn agree(bench: &mut Workbench, own: &[ExprId], other: &[ExprId]) -> bool {
     const AGREEMENT_POINTS: usize = 4;
     let differences: Vec<ExprId> = own.iter().zip(other).map(|(a, b)| bench.graph.sub(*a, *b)).collect();
     let signs = differences.iter().any(|e| bench.zero.has_signs(&bench.graph, *e));
-    // What holds everywhere holds on constraints of which no points are found, too.
+    // Where no points of the constraints are found, any points do: equality everywhere is enough.
     let on_manifold = bench.zero.manifold_has_points();
     (0..if signs { POINTS_WITH_ROOTS } else { AGREEMENT_POINTS }).all(|point| {
         let residues = bench.zero.residues(&mut bench.graph, point, &differences, on_manifold);

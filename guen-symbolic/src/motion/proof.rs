@@ -143,7 +143,7 @@ impl Definition {
         (es, on_manifold): (&[ExprId], bool),
         differs: impl Fn(&mut Point<'_>, &[u64]) -> Option<Option<usize>>,
     ) -> Seen {
-        // What holds everywhere holds on constraints of which no points are found, too.
+        // Where no points of the constraints are found, any points do: equality everywhere is enough.
         let on_manifold = on_manifold && bench.zero.manifold_has_points();
         let all = [es, &system.expressions()].concat();
         let signs = all.iter().any(|e| bench.zero.has_signs(&bench.graph, *e));
