@@ -327,3 +327,23 @@ fn a_platform_on_six_legs_moves_alike_by_angles_and_by_a_quaternion() {
         assert!((a - b).abs() < 1e-11 * a.abs().max(1.0), "{by_angles:?} {by_quaternion:?}");
     }
 }
+
+/// Along the edges of a cube, where the cosines of all angles vanish, nothing is divided by one of them. The parameter goes all ways round
+/// the curve of the positions; it grows by `2/5 g/l`.
+#[test]
+fn a_ring_along_the_edges_of_a_cube_divides_by_no_cosine() {
+    let round = "turn = sin(q1)*(1 + cos(q2))*dot(q2) - sin(q2)*(1 + cos(q1))*dot(q1);";
+    derived(&in_angles().replace("turn = dot(q1);", round), |derived| {
+        assert!(derived.system.derivation.is_by("bodies"));
+        let right = core::f64::consts::FRAC_PI_2;
+        let angles: Vec<_> = (1..=5).map(|i| (format!("q{i}"), right)).collect();
+        let rates =
+            |turn: f64| at(derived, function::RHS, &[&angles[..], &[("turn".to_owned(), turn)]].concat());
+        let moving = rates(1.0);
+        for (rate, expected) in moving.iter().zip([-0.5, 0.5, -0.5, 0.5, -0.5]) {
+            assert!((rate - expected).abs() < 1e-12, "{moving:?}");
+        }
+        // With g = l.
+        assert!((rates(0.0)[5] - 0.4).abs() < 1e-12, "{:?}", rates(0.0));
+    });
+}
