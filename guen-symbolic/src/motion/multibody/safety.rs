@@ -127,3 +127,27 @@ pub(super) fn independent(vectors: &[[f64; 3]]) -> bool {
         _ => false,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A cosine is positive within a radian of the rest position; forms that are dependent where it vanishes make it safe.
+    #[test]
+    fn a_cosine_is_safe_where_the_forms_vanish_with_it_alone() {
+        let mut bench = Workbench::new(Graph::new());
+        let angle = bench.graph.symbol("q", Role::Coordinate);
+        let (_, cosine) = bench.graph.sin_cos(angle);
+        let (zero, one) = (bench.graph.zero(), bench.graph.one());
+        let generation = bench.zero.generation();
+        let mut numbers = Numbering::new(&mut bench.graph, (0, false), generation);
+        let divisor = numbers.import(&mut bench, cosine);
+        let form = |entry: ExprId| [Form { row: vec![entry], offset: zero }];
+        assert!(!is_safe(&bench, &numbers, &form(one), divisor));
+        assert!(is_safe(&bench, &numbers, &form(cosine), divisor));
+        let two = bench.graph.add(one, one);
+        let raised = bench.graph.add(two, cosine);
+        let raised = numbers.import(&mut bench, raised);
+        assert!(is_safe(&bench, &numbers, &form(one), raised));
+    }
+}
