@@ -1,13 +1,13 @@
 //! The derivation as a whole: from a declared system to everything that is emitted.
 
-use super::constancy::{is_constant, rests};
+use super::coordinates::constancy::{is_constant, rests};
 use super::fault::{DerivationError, affordable, few_or_uncoupled};
-use super::forces::generalised_forces;
+use super::formulations::stated::Stated;
 use super::formulations::{self, Formulated, Found};
-use super::indispensable;
-use super::state_rates;
-use super::stated::Stated;
-use super::velocity_forms::VelocityPartials;
+use super::mass_matrix::indispensable;
+use super::quasi_velocities::forces::generalised_forces;
+use super::quasi_velocities::velocity_forms::VelocityPartials;
+use super::results::state_rates;
 use super::{Energies, Equations, Frame, Mechanics, MotionSymbol, Solution, decompose};
 use crate::algebra::{ExprId, FastMap, Flow, Role, Roles, Substitution};
 use crate::geometry::{Closure, Operators};

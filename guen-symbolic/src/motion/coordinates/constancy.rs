@@ -1,0 +1,46 @@
+//! Functions that are constant where the holonomic constraints hold.
+
+use crate::algebra::{ExprId, Flow, Role, Roles};
+use crate::motion::{Frame, Mechanics};
+use crate::workbench::Workbench;
+use crate::zero::Verdict;
+
+/// Whether a function is constant on the holonomic constraints: `X_j f = 0` there for all `j` whose displacement stays on them.
+pub(in crate::motion) fn rests(bench: &mut Workbench, system: &Mechanics, frame: &Frame, e: ExprId) -> bool {
+    // Where it vanishes on all of them it rests, and its derivatives may be large.
+    if bench.verdict_on_manifold(e) == Verdict::Zero {
+        return true;
+    }
+    let forms = &system.forms;
+    (0..=forms.len()).filter(|j| system.holonomic.iter().all(|h| h.form + 1 != *j)).all(|j| {
+        let mut terms: Vec<ExprId> = Vec::new();
+        if j == 0 {
+            terms.push(Flow::partial(&bench.graph, forms.time).of(&mut bench.graph, e));
+        }
+        for (x, xi) in forms.coordinates.iter().zip(&frame.operators.xi[j]) {
+            let slope = Flow::partial(&bench.graph, *x).of(&mut bench.graph, e);
+            terms.push(bench.graph.mul(*xi, slope));
+        }
+        let rate = bench.graph.sum(terms);
+        bench.verdict_on_manifold(rate) == Verdict::Zero
+    })
+}
+
+/// Whether all derivatives by the variables vanish where the holonomic constraints hold.
+pub(in crate::motion) fn is_constant(bench: &mut Workbench, e: ExprId, variables: &[ExprId]) -> bool {
+    let moving = Roles::of(Role::Coordinate).or(Roles::of(Role::Time));
+    if !bench.graph.roles(e).meets(moving) {
+        return true;
+    }
+    let occurring = bench.graph.symbols_in(&[e]);
+    let occurs = |bench: &Workbench, x: ExprId| {
+        bench.graph.as_symbol(x).is_some_and(|symbol| occurring.contains(&symbol))
+    };
+    variables.iter().all(|x| {
+        if !occurs(bench, *x) {
+            return true;
+        }
+        let slope = Flow::partial(&bench.graph, *x).of(&mut bench.graph, e);
+        bench.graph.is_zero(slope) || bench.verdict_on_manifold(slope) == Verdict::Zero
+    })
+}

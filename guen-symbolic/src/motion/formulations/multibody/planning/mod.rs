@@ -1,0 +1,8 @@
+//! Planning: which velocity follows from which, and which are left as unknowns of the core.
+//!
+//! `plan` goes through the tree, `directions` chooses the components of contacts, `safety` judges divisors, `core` solves what is left.
+
+pub(super) mod core;
+mod directions;
+pub(super) mod plan;
+mod safety;
