@@ -74,71 +74,38 @@
 #![allow(clippy::needless_range_loop, reason = "an element is an entry of several arrays")]
 #![allow(clippy::neg_cmp_op_on_partial_ord, reason = "what is no number fails every condition")]
 
-mod by_law;
-mod driver;
-mod element;
-mod error;
-mod facts;
+// In the order of a run: `interface` is what a system says and hears; `mode_dynamics` the motion in a mode; `events` end it; `impacts` and
+// `transitions` lead to the next; `execution` is the loop of all this, `simulations` what users begin it with. `derivatives` are of the whole.
+mod derivatives;
+mod events;
+mod execution;
 pub(crate) mod filled;
-mod held;
-mod hybrid_state;
-mod impact;
-mod in_mode;
-mod jump;
-#[cfg(feature = "alloc")]
-mod kept;
-mod loads;
-mod located;
-mod mode;
-mod mode_info;
-mod mode_rows;
-mod phase;
-mod pivots;
-mod polished;
-mod reactions;
-mod redundant;
-mod resets;
-mod resting;
-mod run;
-mod saltation;
-mod select;
-#[cfg(feature = "alloc")]
-mod sensitivity;
-mod signals;
-#[cfg(feature = "alloc")]
-mod simulation;
-mod stopping;
-mod system;
-#[cfg(feature = "alloc")]
-mod trajectory;
-mod transition;
-mod turn;
-mod turning;
-#[cfg(feature = "alloc")]
-mod unheld;
-mod vanishing;
-mod watched;
+mod impacts;
+mod interface;
+mod mode_dynamics;
+mod simulations;
+mod transitions;
 
-pub use by_law::{ActuatedModes, ByLaw};
-pub use driver::{Hybrid, HybridResult};
-pub use element::{Effect, Element, Kind, Signal};
-pub use error::{HybridCause, HybridError};
-pub use in_mode::InMode;
-pub use loads::Loads;
-pub use mode::{ElementState, Mode};
-pub use mode_info::ModeInfo;
-pub use reactions::Reactions;
-pub use saltation::{NoSaltation, Saltation};
+pub use derivatives::saltation::{NoSaltation, Saltation};
 #[cfg(feature = "alloc")]
-pub use sensitivity::{SensitivityError, TransitionSensitivity};
+pub use derivatives::sensitivity::{SensitivityError, TransitionSensitivity};
+pub use execution::driver::{Hybrid, HybridResult};
+pub use interface::element::{Effect, Element, Kind, Signal};
+pub use interface::error::{HybridCause, HybridError};
+pub use interface::loads::Loads;
+pub use interface::mode::{ElementState, Mode};
+pub use interface::mode_info::ModeInfo;
+pub use interface::reactions::Reactions;
+pub use interface::system::{Conditions, FreeMotion, HybridSystem};
+pub use interface::transition::{Transition, TransitionKind};
+pub use mode_dynamics::in_mode::InMode;
+pub use simulations::by_law::{ActuatedModes, ByLaw};
 #[cfg(feature = "alloc")]
-pub use simulation::{HybridSimulation, HybridSimulationError};
-pub use system::{Conditions, FreeMotion, HybridSystem};
+pub use simulations::simulation::{HybridSimulation, HybridSimulationError};
 #[cfg(feature = "alloc")]
-pub use trajectory::HybridTrajectory;
-pub use transition::{Transition, TransitionKind};
+pub use simulations::trajectory::HybridTrajectory;
 #[cfg(feature = "alloc")]
-pub use unheld::ModesWithoutInputs;
+pub use simulations::unheld::ModesWithoutInputs;
 
 /// Implemented by nothing: the bound of methods that a system with contacts refuses. A closure is for one real, and the selection of modes
 /// needs derivatives along them.

@@ -15,8 +15,8 @@ const ALLOWED: [(&str, &str, &str); 10] = [
     ("guen-runtime", "system::simulate", "simulation::error"),
     ("guen-runtime", "system::simulate", "simulation::trajectory"),
     ("guen-runtime", "system::actuated", "simulation::without_inputs"),
-    ("guen-runtime", "hybrid::system", "hybrid::simulation"),
-    ("guen-runtime", "hybrid::system", "hybrid::trajectory"),
+    ("guen-runtime", "hybrid::interface::system", "hybrid::simulations::simulation"),
+    ("guen-runtime", "hybrid::interface::system", "hybrid::simulations::trajectory"),
     // Types that hold each other: indices are expressions of names with indices; components and modes hold entries of sections.
     ("guen-language", "syntax::name", "syntax::index"),
     ("guen-language", "syntax::section", "syntax::component"),
