@@ -87,38 +87,38 @@ pub use simulation::{
 };
 pub use source::{Kernel, KernelMethod, Source, Sourced};
 pub use steppers::{Cause, IntegrationError, Setting};
-pub use system::actuated::{Actuated, WithInputs};
-pub use system::auxiliary_states::{AuxiliaryStates, Renormalized, renormalized};
-pub use system::bodies::{Bodies, Body};
-pub use system::bracket::Coefficient;
 pub use system::check_costs::CheckCosts;
-pub use system::classification::{
+pub use system::constants_error::{BodyFault, ConstantsError};
+pub use system::constraints::auxiliary_states::{AuxiliaryStates, Renormalized, renormalized};
+pub use system::constraints::positions::{Positions, Projected, consistent, project, projected};
+#[doc(hidden)]
+pub use system::constraints::positions::{furthest_surplus, onto};
+pub use system::constraints::positions_error::PositionsError;
+pub use system::derivatives::differentiable::{Differentiable, Equations, Generic, generic};
+pub use system::derivatives::linearization::{
+    Liftable, Linearizable, Linearization, OutputLinearization, linearized, moving, seeded, slopes, tangents,
+};
+pub use system::derivatives::series::{Coefficients, Convolutions, DrivenSeries, TaylorSeries};
+#[doc(hidden)]
+pub use system::hints::Unprepared;
+pub use system::inputs::actuated::{Actuated, WithInputs};
+pub use system::inputs::input_law::{InputLaw, InputRecords, SmoothLaw};
+#[cfg(feature = "alloc")]
+pub use system::inputs::input_values::InputSamples;
+pub use system::inputs::input_values::InputValues;
+pub use system::invariants::Invariants;
+pub use system::level::{Level, LevelInfo, Levels};
+pub use system::observables::bodies::{Bodies, Body};
+pub use system::observables::outputs::OutputMap;
+pub use system::operators::bracket::Coefficient;
+pub use system::operators::classification::{
     Catastatic, Class, Conservative, Holonomic, IncompleteLieGroup, LieGroup, Nonholonomic, Rheonomic,
     Scleronomic,
 };
-pub use system::constants_error::{BodyFault, ConstantsError};
-pub use system::differentiable::{Differentiable, Equations, Generic, generic};
 #[doc(hidden)]
-pub use system::frame::Frame;
-pub use system::frame::{Commutator, Displacement};
-#[doc(hidden)]
-pub use system::hints::Unprepared;
-pub use system::input_law::{InputLaw, InputRecords, SmoothLaw};
-#[cfg(feature = "alloc")]
-pub use system::input_values::InputSamples;
-pub use system::input_values::InputValues;
-pub use system::invariants::Invariants;
-pub use system::level::{Level, LevelInfo, Levels};
-pub use system::linearization::{
-    Liftable, Linearizable, Linearization, OutputLinearization, linearized, moving, seeded, slopes, tangents,
-};
-pub use system::operator::{Applied, Coordinate, Function, Operator};
-pub use system::outputs::OutputMap;
-pub use system::positions::{Positions, Projected, consistent, project, projected};
-#[doc(hidden)]
-pub use system::positions::{furthest_surplus, onto};
-pub use system::positions_error::PositionsError;
-pub use system::series::{Coefficients, Convolutions, DrivenSeries, TaylorSeries};
+pub use system::operators::frame::Frame;
+pub use system::operators::frame::{Commutator, Displacement};
+pub use system::operators::operator::{Applied, Coordinate, Function, Operator};
 pub use system::simulate::Simulate;
 pub use system::with_scalar::WithScalar;
 pub use system::{FromFn, Laned, MAX_SWITCHES, Monitored, System, from_fn};

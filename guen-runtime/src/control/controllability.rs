@@ -6,7 +6,7 @@ use core::fmt;
 
 use crate::linear_algebra::dense::{Basis, apply, largest, length, transpose};
 use crate::numbers::real::Ordered;
-use crate::system::linearization::Linearization;
+use crate::system::derivatives::linearization::Linearization;
 
 /// The directions that the inputs reach: see [`controllability`].
 #[derive(Clone, Copy, Debug, PartialEq)]

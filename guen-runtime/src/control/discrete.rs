@@ -8,8 +8,8 @@ use crate::numbers::dual::Dual;
 use crate::numbers::lift::Lift;
 use crate::numbers::real::{Ordered, Real};
 use crate::steppers::explicit::rk4;
+use crate::system::derivatives::linearization::{Liftable, Linearization, seeded};
 use crate::system::from_fn;
-use crate::system::linearization::{Liftable, Linearization, seeded};
 
 /// The reason why there is no discrete model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,8 +3,8 @@
 use super::steady::{SteadyError, SteadyMotion, steady};
 use crate::linear_algebra::dense::largest;
 use crate::numbers::real::{Ordered, Real};
-use crate::system::linearization::{Linearizable, Linearization};
-use crate::system::positions::Positions;
+use crate::system::constraints::positions::Positions;
+use crate::system::derivatives::linearization::{Linearizable, Linearization};
 
 /// A system whose rates vanish only where its constraints on positions hold.
 ///

@@ -8,7 +8,7 @@ use super::controllability::{Uncontrollable, controllability};
 use crate::linear_algebra::dense::{Basis, apply, dot, length};
 use crate::linear_algebra::eigenvalues;
 use crate::numbers::real::Ordered;
-use crate::system::linearization::Linearization;
+use crate::system::derivatives::linearization::Linearization;
 
 /// A pole: an eigenvalue `re + i im` of the matrix of a linear model.
 ///

@@ -5,7 +5,7 @@ use core::fmt;
 
 use crate::linear_algebra::dense::{apply, largest, product};
 use crate::numbers::real::{Ordered, Real};
-use crate::system::linearization::{Linearization, OutputLinearization};
+use crate::system::derivatives::linearization::{Linearization, OutputLinearization};
 
 /// Four coordinates that are a unit quaternion, by their indices: `w, x, y, z`.
 pub type Quaternion = [usize; 4];

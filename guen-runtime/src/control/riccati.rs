@@ -12,7 +12,7 @@ use core::fmt;
 
 use crate::linear_algebra::dense::{apply, largest, product, solve, transpose, unit};
 use crate::numbers::real::Ordered;
-use crate::system::linearization::Linearization;
+use crate::system::derivatives::linearization::Linearization;
 
 /// A linear feedback that minimises a quadratic cost: see [`lqr`] and [`dlqr`].
 #[derive(Clone, Copy, Debug, PartialEq)]

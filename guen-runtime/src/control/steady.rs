@@ -5,7 +5,7 @@ use core::fmt;
 
 use crate::linear_algebra::dense::{Basis, dot, largest, length, transpose};
 use crate::numbers::real::Ordered;
-use crate::system::linearization::Linearizable;
+use crate::system::derivatives::linearization::Linearizable;
 
 /// The reason why there is no steady motion.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,7 +6,7 @@ use std::vec::Vec;
 
 use super::*;
 use crate::linear_algebra::dense::{apply, dot, largest, product, solve, transpose, unit};
-use crate::system::linearization::Linearization;
+use crate::system::derivatives::linearization::Linearization;
 
 type Square<const N: usize> = [[f64; N]; N];
 

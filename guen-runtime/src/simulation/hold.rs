@@ -9,8 +9,8 @@ use crate::simulation::optional_projection::OptionalProjection;
 use crate::simulation::recorder::Recorder;
 use crate::simulation::sampling::Sampling;
 use crate::steppers::{Cause, Checkpoint, Interpolant, Method, Setting, Statistics, StepperRun};
-use crate::system::actuated::{Actuated, StateOf, WithInputs};
-use crate::system::input_values::InputSamples;
+use crate::system::inputs::actuated::{Actuated, StateOf, WithInputs};
+use crate::system::inputs::input_values::InputSamples;
 
 /// A function of time and state that may have a memory of its own.
 type Controller<'a, S, R, const N: usize> =

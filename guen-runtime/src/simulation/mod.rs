@@ -20,13 +20,13 @@ pub use trajectory::{Happened, Quality, Trajectory};
 pub use trigger::Trigger;
 pub use without_inputs::SimulationWithoutInputs;
 
+use super::system::inputs::actuated::Actuated;
 use crate::numbers::real::Ordered;
 use crate::simulation::hold::{Hold, Sampled};
 use crate::simulation::optional_projection::OptionalProjection;
 use crate::simulation::recorder::Recorder;
 use crate::simulation::sampling::{Continuous, Sampling};
 use crate::steppers::{Dop853, Event, Guard, Integration, Interpolant, Method, Occurrence, StepperRun};
-use crate::system::actuated::Actuated;
 use crate::system::simulate::Simulate;
 
 /// The tolerance of a simulation that nobody sets, relative and absolute.

@@ -2,10 +2,10 @@
 
 use crate::numbers::real::Ordered;
 use crate::system::System;
-use crate::system::differentiable::Differentiable;
+use crate::system::constraints::positions_error::PositionsError;
+use crate::system::derivatives::differentiable::Differentiable;
+use crate::system::derivatives::series::{Coefficients, TaylorSeries};
 use crate::system::forward::forward;
-use crate::system::positions_error::PositionsError;
-use crate::system::series::{Coefficients, TaylorSeries};
 use crate::system::simulate::Simulate;
 
 /// A system whose states are put back onto its constraints after every step.

@@ -6,7 +6,7 @@ use crate::numbers::real::{Ordered, Real};
 use crate::simulation::optional_projection::OptionalProjection;
 use crate::simulation::recorder::Step;
 use crate::steppers::{Dense, Interpolant, Outcome, Statistics};
-use crate::system::outputs::OutputMap;
+use crate::system::observables::outputs::OutputMap;
 use crate::system::simulate::Simulate;
 use crate::system::{Monitored, System};
 

@@ -4,10 +4,10 @@ use crate::numbers::real::Ordered;
 use crate::simulation::Simulation;
 use crate::simulation::hold::{Hold, Sampled};
 use crate::steppers::Dop853;
-use crate::system::actuated::{Actuated, StateOf, WithInputs};
-use crate::system::input_law::{InputLaw, InputRecords, SmoothLaw};
-use crate::system::input_values::InputSamples;
-use crate::system::linearization::Liftable;
+use crate::system::derivatives::linearization::Liftable;
+use crate::system::inputs::actuated::{Actuated, StateOf, WithInputs};
+use crate::system::inputs::input_law::{InputLaw, InputRecords, SmoothLaw};
+use crate::system::inputs::input_values::InputSamples;
 
 /// A simulation of a system with inputs that does not know them yet: [`inputs`](Self::inputs), [`law`](Self::law) or
 /// [`hold`](Self::hold) make it a [`Simulation`]. Inputs that stay as they are need none of them: `system.driven(inputs)` is a

@@ -16,7 +16,7 @@ macro_rules! forward {
             &$self,
             t: $R,
             state: &mut [$R; $N],
-        ) -> Result<(), $crate::system::positions_error::PositionsError> {
+        ) -> Result<(), $crate::system::constraints::positions_error::PositionsError> {
             $inner.restore(t, state)
         }
 

@@ -1,37 +1,26 @@
 //! Systems: a right-hand side over `N` reals, and the quantities that its motion keeps.
 
-pub(crate) mod actuated;
-pub(crate) mod auxiliary_states;
-pub(crate) mod bodies;
-pub(crate) mod bracket;
 pub(crate) mod check_costs;
-pub(crate) mod classification;
 pub(crate) mod constants_error;
-pub(crate) mod differentiable;
+pub(crate) mod constraints;
+pub(crate) mod derivatives;
 pub(crate) mod forward;
-pub(crate) mod frame;
 pub(crate) mod hints;
-pub(crate) mod input_law;
-pub(crate) mod input_values;
+pub(crate) mod inputs;
 pub(crate) mod invariants;
 pub(crate) mod level;
-pub(crate) mod linearization;
-pub(crate) mod operator;
-pub(crate) mod outputs;
-pub(crate) mod positions;
-pub(crate) mod positions_error;
-pub(crate) mod series;
+pub(crate) mod observables;
+pub(crate) mod operators;
 pub(crate) mod simulate;
-mod with_inputs;
 pub(crate) mod with_scalar;
 
+use self::constraints::positions_error::PositionsError;
 use crate::numbers::lanes::Lanes;
 use crate::numbers::real::Real;
 use crate::numbers::running_error::RunningError;
 use crate::system::check_costs::CheckCosts;
 use crate::system::forward::forward;
 use crate::system::invariants::Invariants;
-use crate::system::positions_error::PositionsError;
 
 /// The most [switching functions](System::switches) of a system.
 pub const MAX_SWITCHES: usize = 64;

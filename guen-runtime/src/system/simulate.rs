@@ -2,11 +2,11 @@
 
 use core::fmt;
 
+use super::constraints::positions::{Positions, Projected};
+use super::constraints::positions_error::PositionsError;
+use super::derivatives::differentiable::{Equations, Generic};
 use crate::numbers::real::{Ordered, Real};
 use crate::steppers::{IntegrationError, NamedError, Names};
-use crate::system::differentiable::{Equations, Generic};
-use crate::system::positions::{Positions, Projected};
-use crate::system::positions_error::PositionsError;
 use crate::system::{FromFn, System};
 #[cfg(feature = "alloc")]
 use {

@@ -1,9 +1,9 @@
 //! A system over `f64` made anew over a shorter or longer real.
 
+use super::derivatives::differentiable::{Equations, Generic};
 use crate::numbers::real::Real;
 use crate::system::System;
 use crate::system::constants_error::ConstantsError;
-use crate::system::differentiable::{Equations, Generic};
 
 /// A system of `N` equations that can be made anew over every real: what a study of the trade of speed for accuracy
 /// takes, because it runs one system over several reals and has its reference computed over a long one.

@@ -6,7 +6,7 @@ use super::mode::Mode;
 use crate::numbers::lift::Lift;
 use crate::numbers::real::Real;
 use crate::numbers::running_error::RunningError;
-use crate::system::positions_error::PositionsError;
+use crate::system::constraints::positions_error::PositionsError;
 #[cfg(feature = "alloc")]
 use {
     crate::hybrid::simulations::simulation::{HybridSimulation, HybridSimulationError},

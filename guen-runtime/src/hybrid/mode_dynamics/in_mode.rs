@@ -13,10 +13,10 @@ use crate::numbers::power_series::PowerSeries;
 use crate::numbers::real::Real;
 use crate::numbers::running_error::RunningError;
 use crate::system::System;
-use crate::system::differentiable::Differentiable;
-use crate::system::linearization::seeded;
-use crate::system::positions_error::PositionsError;
-use crate::system::series::{Coefficients, TaylorSeries};
+use crate::system::constraints::positions_error::PositionsError;
+use crate::system::derivatives::differentiable::Differentiable;
+use crate::system::derivatives::linearization::seeded;
+use crate::system::derivatives::series::{Coefficients, TaylorSeries};
 
 /// A system in one of its modes, as a smooth [`System`] that every stepper runs.
 ///

@@ -9,8 +9,8 @@ use crate::hybrid::interface::system::{Conditions, FreeMotion, HybridSystem};
 use crate::numbers::lift::Lift;
 use crate::numbers::real::Real;
 use crate::numbers::running_error::RunningError;
-use crate::system::input_law::{InputLaw, InputRecords};
-use crate::system::positions_error::PositionsError;
+use crate::system::constraints::positions_error::PositionsError;
+use crate::system::inputs::input_law::{InputLaw, InputRecords};
 
 /// A prepared system with contacts and `M` inputs: the programs in which inputs stand, over every real. Generated systems are.
 #[diagnostic::on_unimplemented(

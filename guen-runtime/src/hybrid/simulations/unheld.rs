@@ -6,7 +6,7 @@ use super::by_law::{ActuatedModes, ByLaw};
 use super::simulation::HybridSimulation;
 use crate::hybrid::ThroughModes;
 use crate::hybrid::interface::system::HybridSystem;
-use crate::system::input_law::InputLaw;
+use crate::system::inputs::input_law::InputLaw;
 
 /// A simulation of a system with contacts and inputs that does not know them yet: [`law`](Self::law) or [`hold`](Self::hold) make it a
 /// [`HybridSimulation`]. Inputs that stay as they are need neither: `system.driven(inputs)` is a system that can be simulated itself.

@@ -5,7 +5,7 @@ use core::fmt;
 
 use super::statistics::Statistics;
 use crate::numbers::real::Real;
-use crate::system::positions_error::PositionsError;
+use crate::system::constraints::positions_error::PositionsError;
 
 /// The reason why an integration could not go on.
 #[derive(Clone, Copy, Debug, PartialEq)]

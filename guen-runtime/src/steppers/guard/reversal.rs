@@ -11,7 +11,7 @@ use crate::steppers::driver::integration::Integration;
 use crate::steppers::driver::run::{IntegrationResult, Method};
 use crate::steppers::guard::Guard;
 use crate::system::System;
-use crate::system::linearization::{Liftable, seeded};
+use crate::system::derivatives::linearization::{Liftable, seeded};
 
 /// The number of steps from one check of the way back to the next: each inverts a matrix of the size of the state.
 const CHECK_INTERVAL: u32 = 8;

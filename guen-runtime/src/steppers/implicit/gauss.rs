@@ -7,12 +7,11 @@ use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::run::{Checkpoint, Method};
 use crate::steppers::driver::statistics::Statistics;
-use crate::steppers::entries;
 use crate::steppers::explicit::fixed::{Fixed, Formula, LastStep, NextStep, Slopes, fixed_step};
 use crate::steppers::guard::defect::quadrature;
 use crate::steppers::implicit::collocation::{Collocation, Factors, shifted};
-use crate::steppers::step_size;
-use crate::system::differentiable::Differentiable;
+use crate::steppers::{entries, step_size};
+use crate::system::derivatives::differentiable::Differentiable;
 
 macro_rules! gauss {
     ($(#[$docs:meta])* $Gauss:ident, $stages:literal stages, order $order:literal) => {

@@ -3,16 +3,15 @@
 use crate::linear_algebra::lu::Complex;
 use crate::numbers::decimal::{Parts, decimal};
 use crate::numbers::real::{Ordered, Real};
-use crate::steppers::all_finite;
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::run::{Checkpoint, Method, StepperRun};
 use crate::steppers::driver::short_ways::short_ways;
-use crate::steppers::entries;
 use crate::steppers::implicit::collocation::{Collocation, Factors, combined};
 use crate::steppers::settings::adaptive_settings;
 use crate::steppers::step_size::{self, Control, Margin, Tolerance};
-use crate::system::differentiable::Differentiable;
+use crate::steppers::{all_finite, entries};
+use crate::system::derivatives::differentiable::Differentiable;
 
 /// Radau IIA with three stages: order five, for stiff systems, with a step that adapts to a tolerance.
 ///

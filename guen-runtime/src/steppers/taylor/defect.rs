@@ -3,7 +3,7 @@
 use super::super::entries;
 use super::Series;
 use crate::numbers::real::{Ordered, Real};
-use crate::system::series::TaylorSeries;
+use crate::system::derivatives::series::TaylorSeries;
 
 /// The place within a step at which the rates are compared, as a part of it. Not the middle, where what is symmetric
 /// about it would vanish.

@@ -10,7 +10,7 @@ use crate::steppers::driver::error::{Cause, Setting};
 use crate::steppers::driver::run::{Checkpoint, Method};
 use crate::steppers::driver::short_ways::short_ways;
 use crate::steppers::step_size::Tolerance;
-use crate::system::series::TaylorSeries;
+use crate::system::derivatives::series::TaylorSeries;
 use run::Run;
 pub use series::Series;
 
@@ -183,4 +183,4 @@ impl<R: Ordered, S: TaylorSeries<R, N> + ?Sized, const N: usize> Method<R, S, N>
     }
 }
 
-short_ways!(Taylor over Ordered, systems crate::system::series::TaylorSeries);
+short_ways!(Taylor over Ordered, systems crate::system::derivatives::series::TaylorSeries);

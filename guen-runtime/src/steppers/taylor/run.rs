@@ -1,7 +1,6 @@
 //! The steps: how long the coefficients allow them to be, and whether the rates there are those of the series.
 
-use super::super::all_finite;
-use super::super::scaled;
+use super::super::{all_finite, scaled};
 use super::defect::{self, Defect};
 use super::{Series, Taylor};
 use crate::numbers::power_series::HIGHEST_ORDER;
@@ -10,8 +9,8 @@ use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::run::{Checkpoint, StepperRun};
 use crate::steppers::driver::statistics::Statistics;
 use crate::steppers::step_size;
-use crate::system::positions_error::PositionsError;
-use crate::system::series::TaylorSeries;
+use crate::system::constraints::positions_error::PositionsError;
+use crate::system::derivatives::series::TaylorSeries;
 
 /// The factor by which a step becomes shorter whose rates are not those of its series, and by which the one after it
 /// becomes longer at most: what the coefficients did not see is near.

@@ -1,11 +1,10 @@
 //! The motion over one step, as its series.
 
-use super::super::entries;
-use super::super::scaled;
+use super::super::{entries, scaled};
 use crate::numbers::power_series::HIGHEST_ORDER;
 use crate::numbers::real::Real;
 use crate::steppers::driver::dense::Interpolant;
-use crate::system::series::Coefficients;
+use crate::system::derivatives::series::Coefficients;
 
 /// The motion over one step of [`Taylor`](crate::steppers::Taylor): its series about the beginning, an [`Interpolant`].
 #[derive(Clone, Copy, Debug)]

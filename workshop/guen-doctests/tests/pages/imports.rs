@@ -14,7 +14,7 @@ const ALLOWED: [(&str, &str, &str); 10] = [
     ("guen-runtime", "system::simulate", "simulation"),
     ("guen-runtime", "system::simulate", "simulation::error"),
     ("guen-runtime", "system::simulate", "simulation::trajectory"),
-    ("guen-runtime", "system::actuated", "simulation::without_inputs"),
+    ("guen-runtime", "system::inputs::actuated", "simulation::without_inputs"),
     ("guen-runtime", "hybrid::interface::system", "hybrid::simulations::simulation"),
     ("guen-runtime", "hybrid::interface::system", "hybrid::simulations::trajectory"),
     // Types that hold each other: indices are expressions of names with indices; components and modes hold entries of sections.

@@ -1,20 +1,20 @@
 //! Systems whose inputs are functions of time and state, as systems: rates, derivatives, series, bodies and outputs.
 
+use super::actuated::{Actuated, StateOf, WithInputs};
+use super::input_law::{InputLaw, InputRecords, SmoothLaw};
+use super::input_values::InputValues;
 use crate::numbers::dual::Dual;
 use crate::numbers::lift::Lift;
 use crate::numbers::power_series::PowerSeries;
 use crate::numbers::real::{Ordered, Real};
-use crate::system::actuated::{Actuated, StateOf, WithInputs};
-use crate::system::auxiliary_states::AuxiliaryStates;
-use crate::system::bodies::{Bodies, Body};
-use crate::system::differentiable::Differentiable;
+use crate::system::constraints::auxiliary_states::AuxiliaryStates;
+use crate::system::constraints::positions_error::PositionsError;
+use crate::system::derivatives::differentiable::Differentiable;
+use crate::system::derivatives::linearization::{Liftable, Linearizable, Linearization, seeded};
+use crate::system::derivatives::series::{Coefficients, DrivenSeries, TaylorSeries};
 use crate::system::forward::forward;
-use crate::system::input_law::{InputLaw, InputRecords, SmoothLaw};
-use crate::system::input_values::InputValues;
-use crate::system::linearization::{Liftable, Linearizable, Linearization, seeded};
-use crate::system::outputs::OutputMap;
-use crate::system::positions_error::PositionsError;
-use crate::system::series::{Coefficients, DrivenSeries, TaylorSeries};
+use crate::system::observables::bodies::{Bodies, Body};
+use crate::system::observables::outputs::OutputMap;
 use crate::system::simulate::Simulate;
 use crate::system::{Monitored, System};
 

@@ -1,8 +1,8 @@
 //! The inputs of a system over one real: by a closure, by a law for every real, or as a controller has held them.
 
+use super::actuated::{Actuated, StateOf};
+use super::input_law::{InputLaw, InputRecords, SmoothLaw};
 use crate::numbers::real::Real;
-use crate::system::actuated::{Actuated, StateOf};
-use crate::system::input_law::{InputLaw, InputRecords, SmoothLaw};
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
 

@@ -1,10 +1,10 @@
 //! The derivatives of a right-hand side that implicit methods need, and two ways to them: emitted, or by duals.
 
+use super::linearization::seeded;
 use crate::numbers::dual::Dual;
 use crate::numbers::real::Real;
 use crate::system::System;
 use crate::system::forward::forward;
-use crate::system::linearization::seeded;
 
 /// A system that knows the derivatives of its right-hand side.
 ///

@@ -3,10 +3,10 @@
 use core::fmt;
 use core::marker::PhantomData;
 
+use super::bracket::Coefficient;
+use super::operator::Operator;
 use crate::numbers::lift::Lift;
 use crate::numbers::real::Real;
-use crate::system::bracket::Coefficient;
-use crate::system::operator::Operator;
 
 /// The operators of a generated system and their brackets: the description from which [`Displacement`] and the brackets of its
 /// module come. Generated code implements it for the prepared system over `f64`.

@@ -1,9 +1,9 @@
 //! Systems that carry elementary functions as states, and keeping these on their relations.
 
+use super::positions_error::PositionsError;
 use crate::numbers::real::Real;
-use crate::system::differentiable::Differentiable;
+use crate::system::derivatives::differentiable::Differentiable;
 use crate::system::forward::forward;
-use crate::system::positions_error::PositionsError;
 use crate::system::{Monitored, System};
 
 /// A system with elementary functions among its states, such as the sine and the cosine of an angle. The carried form of

@@ -4,11 +4,11 @@
 //! drift away from zero. This module puts the coordinates back and leaves the parameters as they are: velocities
 //! `x' = xi_0 + sum_s eta_s xi_s` keep the rate of `f` zero wherever the coordinates are.
 
+use super::positions_error::PositionsError;
 use crate::numbers::real::{Ordered, Real};
-use crate::system::differentiable::Differentiable;
+use crate::system::derivatives::differentiable::Differentiable;
+use crate::system::derivatives::series::{Coefficients, TaylorSeries};
 use crate::system::forward::forward;
-use crate::system::positions_error::PositionsError;
-use crate::system::series::{Coefficients, TaylorSeries};
 use crate::system::{Monitored, System};
 
 /// A system with constraints on positions `f(t, x) = 0`: `H` of them, on `N` coordinates.

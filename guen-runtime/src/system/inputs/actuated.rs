@@ -2,14 +2,14 @@
 
 use core::marker::PhantomData;
 
+use super::input_law::{InputLaw, InputRecords, SmoothLaw};
 #[cfg(feature = "alloc")]
 use crate::numbers::real::Ordered;
 use crate::numbers::real::Real;
 #[cfg(feature = "alloc")]
 use crate::simulation::SimulationWithoutInputs;
+use crate::system::derivatives::linearization::Liftable;
 use crate::system::hints::Inputs;
-use crate::system::input_law::{InputLaw, InputRecords, SmoothLaw};
-use crate::system::linearization::Liftable;
 use crate::system::simulate::Simulate;
 
 /// A state of the system `S` with inputs.

@@ -1,0 +1,5 @@
+//! Constraints on states: positions that fulfil them, and states beside the motion that are kept on their relations.
+
+pub(crate) mod auxiliary_states;
+pub(crate) mod positions;
+pub(crate) mod positions_error;
