@@ -4,10 +4,12 @@ use guen_symbolic::{CarriedFunction, ExprId};
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::integrated::CheckOperations;
-use super::layout::{Layout, carried_name, inputs};
-use super::text::cost;
-use super::{functions, integrated, lanes, records, serde};
+use super::layouts::layout::{Layout, carried_name, inputs};
+use super::layouts::text::cost;
+use super::methods::integrated::{self, CheckOperations};
+use super::methods::lanes;
+use super::programs::functions;
+use super::structs::{records, serde};
 use crate::derive::{Subject, function};
 
 /// The module, and the methods of the level that lead there; nothing where it is not provided.

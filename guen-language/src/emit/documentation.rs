@@ -5,8 +5,7 @@ use std::fmt::Write;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::text::tokens;
-
+use super::layouts::text::tokens;
 use crate::report::{ReportLines, Section};
 use crate::syntax::Docs;
 

@@ -2,44 +2,19 @@
 //!
 //! Two piles: what users name (the constants, the state, the operators, ...) carries their spans, visibility and
 //! documentation; straight-line code sits in the private module `program`, where lint allowances are.
+//!
+//! `layouts` has the names and fields that all items are written by, `programs` the straight-line code; `structs`, `methods` and `contact_modes` are the
+//! items that users name, `carried` a level in the carried form, with all of these.
 
-mod bodies;
 mod carried;
-mod classification;
-mod code;
-mod components;
-mod constants;
-mod contacts;
-mod control;
+mod contact_modes;
 mod documentation;
-mod fields;
-mod formula;
-mod functions;
-mod integrated;
-mod lanes;
-mod layout;
-mod levels;
-mod limits;
-mod linearization;
-mod missing;
-mod modes;
-mod motion;
-mod operators;
-mod parts;
-mod physical;
-mod positions;
-mod records;
-mod rolled;
-mod serde;
-mod series;
-mod signatures;
-mod source;
-mod supplied;
-mod text;
+mod layouts;
+mod methods;
+mod programs;
+mod structs;
 mod thresholds;
-mod unpacked;
 mod uses;
-mod with_scalar;
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
@@ -47,8 +22,12 @@ use quote::quote;
 use crate::derive::{Derived, Subject};
 use crate::names::module_name;
 use crate::report::ReportLines;
-pub(crate) use components::component;
-use layout::{Layout, facade};
+use contact_modes::contacts;
+use layouts::layout::{Layout, facade};
+use methods::{bodies, classification, control, lanes, linearization, missing, motion, operators, positions};
+use programs::{functions, series, source};
+pub(crate) use structs::components::component;
+use structs::{components, constants, levels, limits, physical, records, serde};
 
 /// Emits a derived system with its scenes.
 pub fn emit(derived: Derived<'_>) -> TokenStream {
