@@ -4,12 +4,12 @@ use std::rc::Rc;
 
 use guen_symbolic::{Contracted, Derivation, ExprId, FunctionProgram, Programs, SeriesProgram};
 
-use super::commutator::Commutator;
+use super::brackets::commutator::Commutator;
 use super::contacts::ContactFacts;
-use super::facts::SceneFacts;
-use super::jacobians::Jacobians;
-use super::missing_bounds::MissingBounds;
-use super::selection::{Selection, StateIndex};
+use super::quantities::jacobians::Jacobians;
+use super::quantities::missing_bounds::MissingBounds;
+use super::selections::facts::SceneFacts;
+use super::selections::selection::{Selection, StateIndex};
 use crate::model::Model;
 use crate::syntax::{Name, Scene};
 

@@ -1,37 +1,17 @@
 //! Derives a checked model: the derivation, its faults in the user's names, and the programs.
+//!
+//! In the order of the data: `brackets` of the operators, and the written form; `selections`, the part of a system that a level has; `quantities` of a level, as formulas
+//! and programs; `contacts`, for which the system is derived once more; `provided`, further forms of a level; `scenes`, which use all of these. `level` holds the result.
 
-mod asked;
-mod branches;
-mod carried;
-mod cheapest;
-mod closure;
-mod commutator;
-mod commutators;
+mod brackets;
 mod contacts;
-mod control;
-mod domain;
-mod eliminated;
-mod facts;
 mod faults;
-mod fixed;
-mod formulas;
-mod friction;
 pub mod function;
-mod jacobians;
-mod kept;
 mod level;
-mod manifold;
-mod missing_bounds;
-mod one_mode;
-mod parts;
-mod programs;
-mod readable;
-mod scene;
-mod selection;
-mod series;
-mod source;
-mod supplied;
-mod switches;
+mod provided;
+mod quantities;
+mod scenes;
+mod selections;
 mod thresholds;
 
 use std::rc::Rc;
@@ -40,23 +20,27 @@ use guen_symbolic::{Derivation, ExprId};
 
 use crate::diagnostics::Faults;
 use crate::model::Model;
-use commutators::commutators;
-use domain::{constant_pivots, domain, reason};
-use formulas::Quantity;
-use programs::{add_mass, extend, programs};
-use readable::{equations, polish, shown};
+use brackets::commutators::commutators;
+use brackets::readable::{equations, polish, shown};
+use contacts::{eliminated, friction, one_mode};
+use provided::{carried, series, source, supplied};
+use quantities::domain::{constant_pivots, domain, reason};
+use quantities::formulas::Quantity;
+use quantities::programs::{add_mass, extend, programs};
+use quantities::{control, formulas, missing_bounds, switches};
+use scenes::scene;
 
-pub use branches::Branch;
-pub use closure::{Quadrature, Reason};
-pub use commutator::Commutator;
+pub use brackets::commutator::Commutator;
+pub use contacts::branches::Branch;
 pub use contacts::{ContactFacts, Painleve, ResetFacts};
-pub(crate) use control::{has_covector, known_combinations};
-pub use facts::SceneFacts;
-pub use jacobians::Jacobians;
 pub(crate) use level::Subject;
 pub use level::{Derived, DerivedLevel, Series};
-pub use missing_bounds::MissingBounds;
-pub use selection::{Held, Selection, StateIndex, StatePart};
+pub(crate) use quantities::control::{has_covector, known_combinations};
+pub use quantities::jacobians::Jacobians;
+pub use quantities::missing_bounds::MissingBounds;
+pub use selections::closure::{Quadrature, Reason};
+pub use selections::facts::SceneFacts;
+pub use selections::selection::{Held, Selection, StateIndex, StatePart};
 
 /// Derives a checked model and its scenes; a system without equations of motion is reported.
 pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'a>> {

@@ -2,8 +2,9 @@
 
 use guen_symbolic::{Derivation, ExprId, Flow, Substitution, Verdict, Workbench, weighted_cost};
 
-use super::super::{faults, fixed};
+use super::super::faults;
 use super::rows;
+use crate::derive::selections::fixed;
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{ContactKind, Contacts, Model};
 

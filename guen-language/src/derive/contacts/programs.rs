@@ -3,8 +3,8 @@
 use guen_symbolic::{ExprId, Function, Graph, ProgramBuilder, Programs, Rational, Substitution, Workbench};
 use proc_macro2::Span;
 
-use super::super::branches::Held;
 use super::super::function;
+use super::branches::Held;
 use super::painleve::{self, Matrix};
 use super::{ContactFacts, ContactFunctions, FreeMotion};
 use crate::diagnostics::{Fault, Faults};

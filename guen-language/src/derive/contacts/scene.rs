@@ -11,12 +11,12 @@ use std::rc::Rc;
 use guen_symbolic::{Dependence, ExprId, Programs, Workbench};
 use proc_macro2::Span;
 
-use super::super::closure::Reason;
-use super::super::fixed::Holding;
-use super::super::parts::View;
-use super::super::selection::{Selection, StateIndex, StatePart};
 use super::programs::{LevelContacts, programs};
 use super::{ContactEquations, ContactFacts, ContactFunctions, FreeMotion, ResetFacts, limits, resets};
+use crate::derive::quantities::parts::View;
+use crate::derive::selections::closure::Reason;
+use crate::derive::selections::fixed::Holding;
+use crate::derive::selections::selection::{Selection, StateIndex, StatePart};
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{ContactEntry, ContactState, Contacts, Model};
 use crate::syntax::Name;

@@ -2,8 +2,8 @@
 
 use guen_symbolic::{Pattern, Programs, Role, SymbolId};
 
-use super::function;
-use super::selection::Selection;
+use crate::derive::function;
+use crate::derive::selections::selection::Selection;
 use crate::model::Model;
 
 /// The place of each output of the functions [`function::LINEARIZATION`] and [`function::OUTPUT_LINEARIZATION`] in a

@@ -4,7 +4,7 @@
 use guen_symbolic::{Derivation, ExprId, Role, Roles, Substitution, Workbench};
 
 use super::formulas::Quantity;
-use super::function;
+use crate::derive::function;
 
 /// The integrable combinations of constraints whose coefficients are known, as places in the list of all.
 pub(crate) fn known_combinations(derivation: &Derivation) -> Vec<usize> {

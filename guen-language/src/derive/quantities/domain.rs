@@ -2,31 +2,35 @@
 
 use guen_symbolic::{Contracted, Derivation, ExprId, Function, Graph, Node};
 
-use super::friction;
+use crate::derive::contacts::friction;
 use crate::model::Model;
 
 /// Expressions of constants that must not vanish.
-pub(super) fn constant_pivots(derivation: &Derivation) -> Vec<ExprId> {
+pub(in crate::derive) fn constant_pivots(derivation: &Derivation) -> Vec<ExprId> {
     let operators = &derivation.frame.operators.constant_pivots;
     operators.iter().chain(&derivation.solution.constant_pivots).copied().collect()
 }
 
 /// The words for a function that vanishes where the forms are dependent.
-pub(super) const CHART: &str = "a factor of det A";
+pub(in crate::derive) const CHART: &str = "a factor of det A";
 
 /// A function that must not vanish, as it is written, and in words that hold wherever it is seen from.
-pub(super) struct Singularity {
-    pub(super) function: ExprId,
-    pub(super) text: String,
-    pub(super) words: String,
+pub(in crate::derive) struct Singularity {
+    pub(in crate::derive) function: ExprId,
+    pub(in crate::derive) text: String,
+    pub(in crate::derive) words: String,
     /// The reason: what degenerates where it vanishes, in the names of the declaration.
-    pub(super) origin: String,
+    pub(in crate::derive) origin: String,
     /// Whether it is the determinant of a block of the mass matrix, which the words tell by its rows.
-    pub(super) is_determinant: bool,
+    pub(in crate::derive) is_determinant: bool,
 }
 
 /// The functions that must not vanish: large determinants are told by their rows.
-pub(super) fn domain(model: &Model<'_>, derivation: &Derivation, shown: &Contracted) -> Vec<Singularity> {
+pub(in crate::derive) fn domain(
+    model: &Model<'_>,
+    derivation: &Derivation,
+    shown: &Contracted,
+) -> Vec<Singularity> {
     let named = |e: &ExprId, words: &str, origin: String| Singularity {
         function: *e,
         text: written(model, shown.image(*e), words),
@@ -83,7 +87,7 @@ fn listed(names: &[&str]) -> String {
 }
 
 /// Returns the origin of a function of the chart, and the states at which it vanishes if more can be said of them than that it does.
-pub(super) fn reason(graph: &Graph, e: ExprId, origin: &str) -> String {
+pub(in crate::derive) fn reason(graph: &Graph, e: ExprId, origin: &str) -> String {
     match zeros(graph, e) {
         Some(places) if !places.is_empty() && !matches!(&places[..], [Zero::Plain(known)] if *known == e) => {
             let places: Vec<String> = places.into_iter().map(|place| place.text(graph)).collect();
@@ -166,7 +170,7 @@ fn zeros(graph: &Graph, e: ExprId) -> Option<Vec<Zero>> {
 }
 
 /// A function that must not vanish in words; another text where it is too long.
-pub(super) fn written(model: &Model<'_>, e: ExprId, otherwise: &str) -> String {
+pub(in crate::derive) fn written(model: &Model<'_>, e: ExprId, otherwise: &str) -> String {
     const MESSAGE_CHARACTERS: usize = 400;
     model.bench.graph.text_limited(e, MESSAGE_CHARACTERS).unwrap_or(otherwise.to_owned())
 }

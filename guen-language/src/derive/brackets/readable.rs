@@ -9,7 +9,7 @@ use super::commutator::Commutator;
 use crate::model::Model;
 
 /// `sum_t M_st eta_t' - f_s`.
-pub(super) fn equations(bench: &mut Workbench, derivation: &Derivation) -> Vec<ExprId> {
+pub(in crate::derive) fn equations(bench: &mut Workbench, derivation: &Derivation) -> Vec<ExprId> {
     let rows = derivation.equations.mass.iter().zip(&derivation.equations.forces);
     let rows = rows.map(|(row, force)| {
         let inertia = bench.dot(row, &derivation.system.accelerations);
@@ -19,7 +19,7 @@ pub(super) fn equations(bench: &mut Workbench, derivation: &Derivation) -> Vec<E
 }
 
 /// Returns the notation of a derivation in the report, with sines and cosines of sums.
-pub(super) fn shown(
+pub(in crate::derive) fn shown(
     model: &mut Model<'_>,
     derivation: &Derivation,
     brackets: &[Commutator],
@@ -45,7 +45,7 @@ pub(super) fn shown(
 }
 
 /// Energies, momenta and reactions as polynomials in the quasi-velocities, where that is cheaper.
-pub(super) fn polish(bench: &mut Workbench, derivation: &mut Derivation) {
+pub(in crate::derive) fn polish(bench: &mut Workbench, derivation: &mut Derivation) {
     let system = &derivation.system;
     let variables: Vec<ExprId> = system.accelerations.iter().chain(&system.etas).copied().collect();
     // A larger expression is read by nobody, and rarely gets cheaper.

@@ -2,8 +2,8 @@
 
 use guen_symbolic::{Derivation, ExprId};
 
-use super::commutator::Commutator;
-use super::function;
+use crate::derive::brackets::commutator::Commutator;
+use crate::derive::function;
 use crate::model::Model;
 
 /// A function beside the right-hand side, by its name, and what it computes.
@@ -12,14 +12,14 @@ pub(crate) type Quantity = (&'static str, Vec<ExprId>);
 /// The rates of the whole state in several equal forms: as shown, then as the optimiser may like them better. Where there are some
 /// by the spins of bodies, these alone: next to an edge of the parameters, or of their mass matrix, digits are lost by all
 /// others.
-pub(super) fn rates(derivation: &Derivation) -> Vec<Vec<ExprId>> {
+pub(in crate::derive) fn rates(derivation: &Derivation) -> Vec<Vec<ExprId>> {
     let is_wanted = derivation.formulations.iter().any(|formulated| formulated.is_by_spins);
     let wanted = derivation.formulations.iter().filter(|formulated| formulated.is_by_spins || !is_wanted);
     wanted.map(|formulated| formulated.rates.clone()).collect()
 }
 
 /// Returns all other functions, in the order in which they are built.
-pub(super) fn whole(
+pub(in crate::derive) fn whole(
     model: &mut Model<'_>,
     derivation: &Derivation,
     brackets: &[Commutator],
@@ -68,7 +68,7 @@ pub(super) fn whole(
 }
 
 /// Centers and orientations of the bodies, then the positions of the particles.
-pub(super) fn placed(model: &Model<'_>) -> Vec<ExprId> {
+pub(in crate::derive) fn placed(model: &Model<'_>) -> Vec<ExprId> {
     let bodies = model.bodies.iter().flat_map(|body| {
         let center = body.center.iter().flatten();
         center.chain(body.orientation.iter().flatten().flatten())

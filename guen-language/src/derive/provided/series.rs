@@ -3,9 +3,9 @@
 use guen_symbolic::{Multivariate, Operation, Programs, SeriesProgram, Source, SymbolId};
 use proc_macro2::Span;
 
-use super::function;
-use super::level::Series;
-use super::selection::Selection;
+use crate::derive::function;
+use crate::derive::level::Series;
+use crate::derive::selections::selection::Selection;
 use crate::diagnostics::{Fault, Faults};
 use crate::limits::MAX_SERIES_SUMS;
 use crate::model::Model;
@@ -13,7 +13,7 @@ use crate::model::Model;
 /// The recurrences of the rates of what a level keeps. What has no series is reported at the word `taylor`.
 ///
 /// Where a rate has a kink in an input, or the sums along inputs are too many, there are those with inputs held alone.
-pub(super) fn of(
+pub(in crate::derive) fn of(
     model: &Model<'_>,
     selection: &Selection,
     programs: &Programs,

@@ -2,12 +2,12 @@
 
 use guen_symbolic::{Dependence, Derivation, ExprId, Workbench};
 
-use super::closure::{Reason, StateEquations};
-use super::contacts::SceneContacts;
-use super::fixed::Holding;
-use super::manifold::Replacement;
-use super::parts::replaced;
-use super::selection::StateIndex;
+use crate::derive::contacts::SceneContacts;
+use crate::derive::quantities::parts::replaced;
+use crate::derive::selections::closure::{Reason, StateEquations};
+use crate::derive::selections::fixed::Holding;
+use crate::derive::selections::manifold::Replacement;
+use crate::derive::selections::selection::StateIndex;
 
 /// The variables of a scene.
 pub(super) struct Kept {

@@ -2,8 +2,8 @@
 
 use guen_symbolic::{Derivation, DerivationError, ExprId, Mechanics, Node, Substitution, Workbench};
 
-use super::faults::short;
 use super::selection::{Held, StateIndex, StatePart};
+use crate::derive::faults::short;
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{Contacts, FixedConstant, Model, SceneEntry};
 use crate::syntax::Name;
@@ -26,7 +26,7 @@ impl Trouble {
 }
 
 /// Derives the system with constants at their values. A system that becomes singular is reported at the constant.
-pub(super) fn derivation(
+pub(in crate::derive) fn derivation(
     model: &mut Model<'_>,
     whole: &Derivation,
     scene: &SceneEntry<'_>,
@@ -68,7 +68,7 @@ pub(super) fn derivation(
 }
 
 /// Mechanics with the forms and energies of a whole system, with constants at their values.
-pub(super) fn at_values(
+pub(in crate::derive) fn at_values(
     bench: &mut Workbench,
     mechanics: &Mechanics,
     whole: &Derivation,
@@ -138,7 +138,7 @@ fn trouble(bench: &mut Workbench, whole: &Derivation, fixed: &[(ExprId, ExprId)]
 }
 
 /// The fault of a fixed constant at whose value a contact, a switch or a reset divides by zero.
-pub(super) fn undefined_contacts(
+pub(in crate::derive) fn undefined_contacts(
     bench: &mut Workbench,
     contacts: &Contacts<'_>,
     fixes: &[FixedConstant<'_>],
@@ -180,7 +180,7 @@ fn is_undefined(bench: &Workbench, e: ExprId) -> bool {
 }
 
 /// The variables that a scene holds, each with the symbol of its constant; one that moves is reported with its rate.
-pub(super) fn held(
+pub(in crate::derive) fn held(
     model: &mut Model<'_>,
     rates: &[ExprId],
     names: &[&Name],
@@ -211,12 +211,12 @@ pub(super) fn held(
 }
 
 /// The rates of the variables when some are held.
-pub(super) struct Holding {
+pub(in crate::derive) struct Holding {
     substitution: Substitution,
 }
 
 impl Holding {
-    pub(super) fn new(model: &Model<'_>, held: &[Held]) -> Self {
+    pub(in crate::derive) fn new(model: &Model<'_>, held: &[Held]) -> Self {
         let zero = model.bench.graph.zero();
         let values = held.iter().map(|held| (model.variable(held.place), held.symbol));
         let resting = held.iter().filter_map(|held| match model.part(held.place) {
@@ -227,12 +227,12 @@ impl Holding {
         Holding { substitution: Substitution::new(values.chain(resting)) }
     }
 
-    pub(super) fn of(&mut self, bench: &mut Workbench, e: ExprId) -> ExprId {
+    pub(in crate::derive) fn of(&mut self, bench: &mut Workbench, e: ExprId) -> ExprId {
         self.substitution.of(&mut bench.graph, e)
     }
 }
 
 /// The places of held variables.
-pub(super) fn is_held(held: &[Held], place: StateIndex) -> bool {
+pub(in crate::derive) fn is_held(held: &[Held], place: StateIndex) -> bool {
     held.iter().any(|held| held.place == place)
 }

@@ -5,12 +5,12 @@ use guen_symbolic::{
 };
 
 use super::formulas::Quantity;
-use super::function;
-use super::thresholds::{PROMISING_FORM, SHARED_REACTIONS, WRITTEN_OUT_RATES};
+use crate::derive::function;
+use crate::derive::thresholds::{PROMISING_FORM, SHARED_REACTIONS, WRITTEN_OUT_RATES};
 use crate::model::Model;
 
 /// Adds further forms of the first list of rates, and drops those that are too expensive to be looked at.
-pub(super) fn extend(bench: &mut Workbench, lists: &mut Vec<Vec<ExprId>>) {
+pub(in crate::derive) fn extend(bench: &mut Workbench, lists: &mut Vec<Vec<ExprId>>) {
     let mut estimates: Vec<u64> = lists.iter().map(|list| weighted_cost(&bench.graph, list)).collect();
     let best = (0..lists.len()).min_by_key(|i| estimates[*i]).unwrap_or_default();
     if estimates[best] <= WRITTEN_OUT_RATES {
@@ -27,7 +27,11 @@ pub(super) fn extend(bench: &mut Workbench, lists: &mut Vec<Vec<ExprId>>) {
 }
 
 /// The code of the rates, given in several equal forms, and of everything else.
-pub(super) fn programs(bench: &mut Workbench, rates: &[Vec<ExprId>], quantities: &[Quantity]) -> Programs {
+pub(in crate::derive) fn programs(
+    bench: &mut Workbench,
+    rates: &[Vec<ExprId>],
+    quantities: &[Quantity],
+) -> Programs {
     let quantity =
         |name: &str| quantities.iter().find(|(known, _)| *known == name).map(|(_, outputs)| outputs);
     // The covector is the reactions times the rows of their constraints: where they are large one program is made, and divided.
@@ -55,7 +59,7 @@ pub(super) fn programs(bench: &mut Workbench, rates: &[Vec<ExprId>], quantities:
 }
 
 /// The mass matrix by itself, out of the equations apart, unless it is diagonal: then it has no condition to measure.
-pub(super) fn add_mass(programs: &mut Programs, model: &Model<'_>, derivation: &Derivation) {
+pub(in crate::derive) fn add_mass(programs: &mut Programs, model: &Model<'_>, derivation: &Derivation) {
     let mass = &derivation.equations.mass;
     let l = mass.len();
     let graph = &model.bench.graph;

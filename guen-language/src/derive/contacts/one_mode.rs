@@ -10,9 +10,9 @@ pub(super) use written::name_of;
 
 use guen_symbolic::{ExprId, Substitution, SymbolId, chosen_rates, independent_rows};
 
-use super::contacts::ContactFacts;
-use super::level::{Derived, DerivedLevel};
-use super::selection::StatePart;
+use super::ContactFacts;
+use crate::derive::level::{Derived, DerivedLevel};
+use crate::derive::selections::selection::StatePart;
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{self, ContactState, Contacts, Model, SceneEntry, nominal};
 use crate::names::quoted;
@@ -31,7 +31,7 @@ pub(super) struct Part {
 }
 
 /// Derives the scenes that have one mode, each as a scene of a system of its own.
-pub(super) fn derive<'a>(
+pub(in crate::derive) fn derive<'a>(
     model: &mut Model<'a>,
     system: &DerivedLevel,
     faults: &mut Faults,
@@ -52,7 +52,7 @@ pub(super) fn derive<'a>(
     let mut derived = Vec::new();
     for (index, declaration) in places.into_iter().zip(declarations) {
         let before = faults.count();
-        let own = model::resolve(declaration, faults).and_then(|model| super::derive(model, faults));
+        let own = model::resolve(declaration, faults).and_then(|model| crate::derive::derive(model, faults));
         let scene = &model.scenes[index].scene;
         if faults.count() > before {
             let what = format!("in the mode of scene `{}`", scene.name);

@@ -7,12 +7,12 @@ use guen_symbolic::{
     evaluate_function, evaluate_prepare,
 };
 
-use super::domain::{Singularity, constant_pivots, domain, reason, written};
-use super::function;
-use super::level::DerivedLevel;
-use super::parts::Functions;
-use super::programs::{extend, programs};
-use super::selection::Selection;
+use crate::derive::function;
+use crate::derive::level::DerivedLevel;
+use crate::derive::quantities::domain::{Singularity, constant_pivots, domain, reason, written};
+use crate::derive::quantities::parts::Functions;
+use crate::derive::quantities::programs::{extend, programs};
+use crate::derive::selections::selection::Selection;
 use crate::model::{FixedConstant, Model};
 
 /// The cheapest programs of a scene, and whether its right-hand side is a part of the whole system's.

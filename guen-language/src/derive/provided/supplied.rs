@@ -2,13 +2,13 @@
 
 use guen_symbolic::{Instruction, Multivariate, Operation};
 
-use super::level::DerivedLevel;
+use crate::derive::level::DerivedLevel;
 use crate::diagnostics::{Fault, Faults};
 use crate::limits::MAX_DERIVATIVES;
 use crate::model::Model;
 
 /// Reports functions of which some level needs a derivative of a higher order than one evaluation computes.
-pub(super) fn check(model: &Model<'_>, levels: &[&DerivedLevel], faults: &mut Faults) {
+pub(in crate::derive) fn check(model: &Model<'_>, levels: &[&DerivedLevel], faults: &mut Faults) {
     let mut highest = vec![0; model.functions.len()];
     if highest.is_empty() {
         return;

@@ -2,9 +2,10 @@
 
 use guen_symbolic::{Derivation, Programs};
 
+use super::formulas;
 use super::programs::{extend, programs};
-use super::thresholds::REPEATED_DERIVATION;
-use super::{formulas, function};
+use crate::derive::function;
+use crate::derive::thresholds::REPEATED_DERIVATION;
 use crate::diagnostics::collect;
 use crate::model::{self, Model};
 use crate::syntax::{BoundKind, Item, WrittenBound};
@@ -19,7 +20,7 @@ pub struct MissingBounds {
 
 /// Returns the bounds that would save operations. Only where a form has an entry that nothing but the missing bound keeps from being
 /// divided by, the system is derived once more, with the bounds.
-pub(super) fn missing_bounds(
+pub(in crate::derive) fn missing_bounds(
     model: &Model<'_>,
     derivation: &Derivation,
     own: &Programs,

@@ -2,13 +2,13 @@
 
 use guen_symbolic::{Multivariate, Operation, Programs};
 
-use super::{DerivedLevel, function};
+use crate::derive::{DerivedLevel, function};
 use crate::diagnostics::{Fault, Faults};
 use crate::model::Model;
 use crate::syntax::Name;
 
 /// Reports at the word `source` what a text of C cannot say: functions of the program, and motions through modes.
-pub(super) fn check(
+pub(in crate::derive) fn check(
     model: &Model<'_>,
     programs: &Programs,
     has_modes: bool,

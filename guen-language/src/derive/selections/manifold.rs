@@ -35,25 +35,29 @@ fn unit(bench: &mut Workbench, system: &Mechanics, equation: ExprId) -> Option<V
 }
 
 /// Unit quaternions: groups of four coordinates that a scene keeps together or not at all.
-pub(super) fn quaternions(bench: &mut Workbench, system: &Mechanics) -> Vec<Vec<StateIndex>> {
+pub(in crate::derive) fn quaternions(bench: &mut Workbench, system: &Mechanics) -> Vec<Vec<StateIndex>> {
     let equations: Vec<ExprId> = system.holonomic.iter().map(|h| h.equation).collect();
     equations.into_iter().filter_map(|e| unit(bench, system, e)).filter(|group| group.len() == 4).collect()
 }
 
 /// Coordinates in place of which something else can be put, because of one holonomic equation.
-pub(super) struct Replacement {
+pub(in crate::derive) struct Replacement {
     /// The coordinates.
-    pub(super) coordinates: Vec<usize>,
+    pub(in crate::derive) coordinates: Vec<usize>,
     substitution: Substitution,
     /// Whether the result must be compared with what was there.
-    pub(super) is_trial: bool,
+    pub(in crate::derive) is_trial: bool,
 }
 
 impl Replacement {
     /// Returns the replacements that the equations offer, in their order: a coordinate that enters linearly with a
     /// number before it is solved for, and a point of a unit sphere stands for all of them where nothing depends on
     /// which one it is. Variables that are held are constants in the equations, too.
-    pub(super) fn all(bench: &mut Workbench, system: &Mechanics, holding: &mut Holding) -> Vec<Replacement> {
+    pub(in crate::derive) fn all(
+        bench: &mut Workbench,
+        system: &Mechanics,
+        holding: &mut Holding,
+    ) -> Vec<Replacement> {
         let mut found = Vec::new();
         for holonomic in &system.holonomic {
             let equation = holding.of(bench, holonomic.equation);
@@ -85,7 +89,7 @@ impl Replacement {
     }
 
     /// The expression with the replacement made, where it is then the same on the holonomic constraints.
-    pub(super) fn of(&mut self, bench: &mut Workbench, e: ExprId) -> ExprId {
+    pub(in crate::derive) fn of(&mut self, bench: &mut Workbench, e: ExprId) -> ExprId {
         let image = self.substitution.of(&mut bench.graph, e);
         if !self.is_trial || image == e {
             return image;

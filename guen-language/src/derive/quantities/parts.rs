@@ -2,38 +2,42 @@
 
 use guen_symbolic::{Contracted, Dependence, Derivation, ExprId, Graph, Substitution, Workbench};
 
-use super::commutator::Commutator;
 use super::domain::{constant_pivots, domain, reason, written};
-use super::fixed::Holding;
 use super::formulas::{self, Quantity};
-use super::function;
-use super::manifold::Replacement;
-use super::selection::{Selection, StatePart};
+use crate::derive::brackets::commutator::Commutator;
+use crate::derive::function;
+use crate::derive::selections::fixed::Holding;
+use crate::derive::selections::manifold::Replacement;
+use crate::derive::selections::selection::{Selection, StatePart};
 use crate::model::Model;
 
 /// A function of a scene: its name, the places of its results in the function of the whole system if that has all of them, and
 /// the results.
-pub(super) struct Part {
-    pub(super) name: &'static str,
-    pub(super) places: Option<Vec<usize>>,
-    pub(super) outputs: Vec<ExprId>,
+pub(in crate::derive) struct Part {
+    pub(in crate::derive) name: &'static str,
+    pub(in crate::derive) places: Option<Vec<usize>>,
+    pub(in crate::derive) outputs: Vec<ExprId>,
 }
 
 /// The functions of a scene.
-pub(super) struct Functions {
-    pub(super) parts: Vec<Part>,
+pub(in crate::derive) struct Functions {
+    pub(in crate::derive) parts: Vec<Part>,
     /// The functions that must not vanish, and each of them in words.
-    pub(super) domain: Vec<ExprId>,
-    pub(super) domain_names: Vec<String>,
+    pub(in crate::derive) domain: Vec<ExprId>,
+    pub(in crate::derive) domain_names: Vec<String>,
     /// The reason for each of them: what degenerates where it vanishes, and at which states.
-    pub(super) domain_reasons: Vec<String>,
+    pub(in crate::derive) domain_reasons: Vec<String>,
     /// Expressions of constants that must not vanish.
-    pub(super) constant_pivots: Vec<ExprId>,
+    pub(in crate::derive) constant_pivots: Vec<ExprId>,
 }
 
 impl Functions {
     /// Returns the quantities that the functions compute if these divisors must not vanish either.
-    pub(super) fn with_divisors(&self, divisors: &[(ExprId, String)], graph: &Graph) -> Vec<Quantity> {
+    pub(in crate::derive) fn with_divisors(
+        &self,
+        divisors: &[(ExprId, String)],
+        graph: &Graph,
+    ) -> Vec<Quantity> {
         let (constants, singularities): (Vec<ExprId>, Vec<ExprId>) =
             divisors.iter().map(|(e, _)| *e).partition(|e| graph.roles(*e).is_constant());
         let mut all: Vec<Quantity> =
@@ -50,7 +54,11 @@ impl Functions {
 
 /// An expression with several replacements made. One can bring in what another replaces, so that they are made again
 /// while that changes something; as often as there are of them, since each is to leave for good.
-pub(super) fn replaced(bench: &mut Workbench, replacements: &mut [Replacement], mut e: ExprId) -> ExprId {
+pub(in crate::derive) fn replaced(
+    bench: &mut Workbench,
+    replacements: &mut [Replacement],
+    mut e: ExprId,
+) -> ExprId {
     for _ in 0..replacements.len() {
         let image = replacements.iter_mut().fold(e, |e, replacement| replacement.of(bench, e));
         if image == e {
@@ -62,35 +70,35 @@ pub(super) fn replaced(bench: &mut Workbench, replacements: &mut [Replacement], 
 }
 
 /// Expressions of the whole system as a scene sees them.
-pub(super) struct View {
-    pub(super) holding: Holding,
-    pub(super) replacements: Vec<Replacement>,
-    pub(super) dependence: Dependence,
+pub(in crate::derive) struct View {
+    pub(in crate::derive) holding: Holding,
+    pub(in crate::derive) replacements: Vec<Replacement>,
+    pub(in crate::derive) dependence: Dependence,
     /// Symbols that left.
-    pub(super) idle: Vec<ExprId>,
+    pub(in crate::derive) idle: Vec<ExprId>,
 }
 
 impl View {
     /// Returns an expression with held variables as constants and eliminated ones replaced.
-    pub(super) fn replaced(&mut self, model: &mut Model<'_>, e: ExprId) -> ExprId {
+    pub(in crate::derive) fn replaced(&mut self, model: &mut Model<'_>, e: ExprId) -> ExprId {
         let e = self.holding.of(&mut model.bench, e);
         replaced(&mut model.bench, &mut self.replacements, e)
     }
 
     /// Returns an expression without the variables that left.
-    pub(super) fn of(&mut self, model: &mut Model<'_>, e: ExprId) -> ExprId {
+    pub(in crate::derive) fn of(&mut self, model: &mut Model<'_>, e: ExprId) -> ExprId {
         let e = self.replaced(model, e);
         self.dependence.without_idle(&mut model.bench, e, &self.idle)
     }
 
     /// Whether an expression depends on something that left.
-    pub(super) fn is_lost(&mut self, model: &mut Model<'_>, e: ExprId) -> bool {
+    pub(in crate::derive) fn is_lost(&mut self, model: &mut Model<'_>, e: ExprId) -> bool {
         self.idle.iter().any(|symbol| self.dependence.depends(&mut model.bench, e, *symbol))
     }
 }
 
 /// The functions of a scene.
-pub(super) fn parts(
+pub(in crate::derive) fn parts(
     model: &mut Model<'_>,
     derivation: &Derivation,
     brackets: &[Commutator],

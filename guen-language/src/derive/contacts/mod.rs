@@ -2,8 +2,15 @@
 //!
 //! The system is derived once more with a force along every row of the contacts. The rates are affine in these forces, so that
 //! their derivatives by a force are `M^-1 W^T`, found by the elimination that solves the system.
+//!
+//! `branches` of piecewise functions are held within a mode. `one_mode` derives scenes in a single mode anew, with its `friction` as forces; `eliminated`
+//! gives modes of other scenes rates of their own.
 
+pub(super) mod branches;
+pub(super) mod eliminated;
 mod equations;
+pub(super) mod friction;
+pub(super) mod one_mode;
 mod painleve;
 mod programs;
 mod rows;
@@ -17,12 +24,11 @@ pub(super) use equations::{ContactEquations, affine};
 pub use painleve::Painleve;
 pub(super) use scene::SceneContacts;
 
-use equations::{ContactFunctions, FreeMotion};
-use programs::{LevelContacts, programs};
-
-use super::branches::Branch;
 use crate::diagnostics::Faults;
 use crate::model::{Contacts, Model};
+use branches::Branch;
+use equations::{ContactFunctions, FreeMotion};
+use programs::{LevelContacts, programs};
 
 /// The facts about contacts that the programs do not tell.
 #[derive(Clone, Debug, Default)]

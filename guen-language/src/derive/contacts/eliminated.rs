@@ -6,21 +6,21 @@
 
 use guen_symbolic::{Contracted, Dependence, Derivation, ExprId, Flow, Operation, Programs, Role, SymbolId};
 
-use super::contacts::ContactFacts;
-use super::domain::{CHART, constant_pivots, domain};
-use super::level::DerivedLevel;
-use super::one_mode;
-use super::programs::{extend, programs};
-use super::readable::polish;
-use super::selection::{Selection, StateIndex};
-use super::thresholds::ELIMINATED_MODES;
-use super::{formulas, friction, function};
+use super::{ContactFacts, friction, one_mode};
+use crate::derive::brackets::readable::polish;
+use crate::derive::function;
+use crate::derive::level::DerivedLevel;
+use crate::derive::quantities::domain::{CHART, constant_pivots, domain};
+use crate::derive::quantities::formulas;
+use crate::derive::quantities::programs::{extend, programs};
+use crate::derive::selections::selection::{Selection, StateIndex};
+use crate::derive::thresholds::ELIMINATED_MODES;
 use crate::diagnostics::collect;
 use crate::model::{self, ContactState, Contacts, Model, SceneEntry, SceneModes};
 use crate::syntax::{Declaration, Name, Scene};
 
 /// Adds the rates of the modes of scenes with few modes, without switches, and with no constants fixed.
-pub(super) fn add(model: &mut Model<'_>, system: &DerivedLevel, scenes: &mut [DerivedLevel]) {
+pub(in crate::derive) fn add(model: &mut Model<'_>, system: &DerivedLevel, scenes: &mut [DerivedLevel]) {
     let Some(contacts) = model.contacts.take() else { return };
     let entries = std::mem::take(&mut model.scenes);
     let is_plain = model.functions.is_empty() && !model.declaration.is_outline;

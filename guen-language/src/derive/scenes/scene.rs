@@ -6,20 +6,21 @@ use guen_symbolic::{Dependence, Derivation, ExprId, Substitution, Workbench};
 
 use super::asked::{is_output, nothing_moves, of_outputs, provided, tracked, wanted};
 use super::cheapest::cheapest;
-use super::closure::{Reason, StateEquations};
-use super::commutator::Commutator;
-use super::commutators::commutators;
-use super::contacts::{self, ContactEquations, SceneContacts};
-use super::facts::SceneFacts;
-use super::fixed::{self, Holding};
-use super::jacobians::Jacobians;
 use super::kept::{Kept, closed};
-use super::level::DerivedLevel;
-use super::manifold::{Replacement, quaternions};
-use super::parts::{Functions, View, parts};
-use super::readable::{polish, shown};
-use super::selection::StateIndex;
-use super::{carried, formulas, series, source};
+use crate::derive::brackets::commutator::Commutator;
+use crate::derive::brackets::commutators::commutators;
+use crate::derive::brackets::readable::{polish, shown};
+use crate::derive::contacts::{self, ContactEquations, SceneContacts};
+use crate::derive::level::DerivedLevel;
+use crate::derive::provided::{carried, series, source};
+use crate::derive::quantities::jacobians::Jacobians;
+use crate::derive::quantities::parts::{Functions, View, parts};
+use crate::derive::quantities::{formulas, switches};
+use crate::derive::selections::closure::{Reason, StateEquations};
+use crate::derive::selections::facts::SceneFacts;
+use crate::derive::selections::fixed::{self, Holding};
+use crate::derive::selections::manifold::{Replacement, quaternions};
+use crate::derive::selections::selection::StateIndex;
 use crate::diagnostics::{Faults, collect};
 use crate::model::{Model, SceneEntry, SceneModes};
 
@@ -32,7 +33,7 @@ struct Shared {
 }
 
 /// Derives every scene but those in a single mode of contacts without resets; those with faults are reported and left out.
-pub(super) fn derive(
+pub(in crate::derive) fn derive(
     model: &mut Model<'_>,
     system: &DerivedLevel,
     equations: Option<Rc<ContactEquations>>,
@@ -264,7 +265,7 @@ fn level(
     }
     let jacobians = Jacobians::add(&mut programs, model, &selection);
     let place = (scene.scene.name.span(), &mut *faults);
-    let switches = super::switches::add(model, &rates, &shown, &mut programs, place);
+    let switches = switches::add(model, &rates, &shown, &mut programs, place);
     if let Some(word) = writes {
         source::check(model, &programs, of_contacts.is_some(), word, faults);
     }

@@ -2,20 +2,20 @@
 
 use guen_symbolic::{Carried, CarriedFunction, Contracted, ExprId, NotCarried, ProgramBuilder, Programs};
 
-use super::domain::written;
-use super::function;
-use super::jacobians::Jacobians;
-use super::level::DerivedLevel;
-use super::programs::extend;
-use super::selection::Selection;
-use super::thresholds::CARRIED_VARIABLE_COST;
+use crate::derive::function;
+use crate::derive::level::DerivedLevel;
+use crate::derive::quantities::domain::written;
+use crate::derive::quantities::jacobians::Jacobians;
+use crate::derive::quantities::programs::extend;
+use crate::derive::selections::selection::Selection;
+use crate::derive::thresholds::CARRIED_VARIABLE_COST;
 use crate::diagnostics::{Fault, Faults};
 use crate::model::Model;
 use crate::syntax::Name;
 
 /// The carried form of a level whose rates are given in several equal forms; what has none is reported at the word that
 /// asks for it.
-pub(super) fn derive(
+pub(in crate::derive) fn derive(
     model: &mut Model<'_>,
     level: &DerivedLevel,
     lists: &[Vec<ExprId>],

@@ -6,13 +6,13 @@
 
 use guen_symbolic::{Derivation, ExprId, Function, Substitution, Workbench};
 
-use super::contacts::affine;
-use super::faults;
+use super::affine;
+use crate::derive::faults;
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{Divisor, Model};
 
 /// Puts the loads in place of their symbols; `None` after a fault.
-pub(super) fn solve_loads(model: &mut Model<'_>, faults: &mut Faults) -> Option<()> {
+pub(in crate::derive) fn solve_loads(model: &mut Model<'_>, faults: &mut Faults) -> Option<()> {
     if model.loads.is_empty() {
         return Some(());
     }
@@ -140,7 +140,7 @@ fn substitute_back(
 }
 
 /// The functions that must not vanish, so that loads and directions of slips are there: each with its reason.
-pub(super) fn divisors<'m>(
+pub(in crate::derive) fn divisors<'m>(
     model: &'m Model<'_>,
     derivation: &'m Derivation,
 ) -> impl Iterator<Item = (ExprId, &'m str)> {

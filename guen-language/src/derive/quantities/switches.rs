@@ -4,13 +4,13 @@ use guen_symbolic::{Contracted, ExprId, ProgramBuilder, Programs, Role, Roles};
 use proc_macro2::Span;
 
 use super::domain::written;
-use super::function;
+use crate::derive::function;
 use crate::diagnostics::{Fault, Faults};
 use crate::limits::MAX_SWITCHES;
 use crate::model::Model;
 
 /// Returns the switching functions of the piecewise functions in some rates, each once, with their texts, and adds their program.
-pub(super) fn add(
+pub(in crate::derive) fn add(
     model: &mut Model<'_>,
     rates: &[ExprId],
     shown: &Contracted,

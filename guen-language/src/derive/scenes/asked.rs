@@ -2,10 +2,10 @@
 
 use guen_symbolic::{Derivation, ExprId, Substitution};
 
-use super::closure::Reason;
-use super::contacts::SceneContacts;
-use super::fixed::Holding;
-use super::selection::{Selection, StateIndex};
+use crate::derive::contacts::SceneContacts;
+use crate::derive::selections::closure::Reason;
+use crate::derive::selections::fixed::Holding;
+use crate::derive::selections::selection::{Selection, StateIndex};
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{Model, SceneEntry};
 use crate::syntax::Name;

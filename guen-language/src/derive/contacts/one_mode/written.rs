@@ -6,7 +6,7 @@ use guen_symbolic::ExprId;
 use proc_macro2::{Ident, Span};
 
 use super::{Part, not_held, words};
-use crate::derive::selection::StatePart;
+use crate::derive::selections::selection::StatePart;
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{ContactEntry, ContactState, Contacts, FormEntry, Model, SceneEntry};
 use crate::names::{RATE_SUFFIX, suffixed};

@@ -3,12 +3,13 @@
 use guen_symbolic::{Derivation, ExprId};
 
 use super::commutator::Commutator;
-use super::{fixed, manifold, parts};
+use crate::derive::quantities::parts;
+use crate::derive::selections::{fixed, manifold};
 use crate::model::Model;
 
 /// The brackets that do not vanish identically: among `X_0 .. X_l`, or among all operators if the system or a scene
 /// provides operators.
-pub(super) fn commutators(model: &mut Model<'_>, derivation: &mut Derivation) -> Vec<Commutator> {
+pub(in crate::derive) fn commutators(model: &mut Model<'_>, derivation: &mut Derivation) -> Vec<Commutator> {
     let n = derivation.system.forms.len();
     if derivation.frame.brackets.are_zero() {
         return Vec::new();
