@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::algebra::{ExprId, Rational};
 use crate::workbench::Workbench;
 
-/// The size of matrices above which none is inverted by its adjugate: blocks of forms are eliminated row by row then, and blocks of
+/// The size of matrices above which none is inverted by its adjugate: blocks of forms are inverted by orthogonal rows then, and blocks of
 /// equations without a pivot on the diagonal are not solved so. Minors are twice as many with each row.
 pub(crate) const ADJUGATE_SIZE: usize = 5;
 

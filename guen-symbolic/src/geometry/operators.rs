@@ -327,13 +327,8 @@ impl Solver<'_> {
     /// Inverts what is left of some forms.
     fn inverse(&mut self, matrix: &[Vec<ExprId>], forms: &[usize]) -> Option<Vec<Vec<ExprId>>> {
         let n = matrix.len();
-        if n > 1
-            && let Some(inverse) = self.orthogonal_inverse(matrix, forms)
-        {
-            return Some(inverse);
-        }
-        if n > ADJUGATE_SIZE {
-            return self.eliminated_inverse(matrix, forms);
+        if n > ADJUGATE_SIZE || n > 1 && self.is_orthogonal(matrix) {
+            return self.inverse_by_orthogonal_rows(matrix, forms);
         }
         let (mut inverse, determinant) = adjugate(self.bench, matrix);
         if self.bench.verdict_on_manifold(determinant) == Verdict::Zero {
@@ -349,64 +344,78 @@ impl Solver<'_> {
         Some(inverse)
     }
 
-    /// `K^-1 = K^T D^-1` for orthogonal rows, `D` the squares of their lengths.
-    fn orthogonal_inverse(&mut self, matrix: &[Vec<ExprId>], forms: &[usize]) -> Option<Vec<Vec<ExprId>>> {
-        let n = matrix.len();
-        for i in 0..n {
-            for k in 0..i {
+    /// Whether the rows are orthogonal to each other.
+    fn is_orthogonal(&mut self, matrix: &[Vec<ExprId>]) -> bool {
+        (0..matrix.len()).all(|i| {
+            (0..i).all(|k| {
                 let product = self.bench.dot(&matrix[i], &matrix[k]);
-                if !self.bench.vanishes(product) {
-                    return None;
-                }
-            }
-        }
-        let mut inverse = vec![vec![self.bench.graph.zero(); n]; n];
-        for (k, row) in matrix.iter().enumerate() {
-            let square = self.bench.dot(row, row);
-            let square = self.bench.tidy(square);
-            self.require(square, &forms[k..=k]);
-            for (i, e) in row.iter().enumerate() {
-                let quotient = self.bench.graph.div(*e, square);
-                let tidy = self.bench.tidy(quotient);
-                inverse[i][k] = self.bench.keep_large(tidy);
-            }
-        }
-        Some(inverse)
+                self.bench.vanishes(product)
+            })
+        })
     }
 
-    /// Gauss-Jordan elimination on pivots that are not identically zero; they join the chart's domain.
-    fn eliminated_inverse(&mut self, matrix: &[Vec<ExprId>], forms: &[usize]) -> Option<Vec<Vec<ExprId>>> {
+    /// `K^-1 = Q^T D^-1 T`, where the rows of `Q = T K` are orthogonal (Gram and Schmidt) and `D` is the squares of their lengths. None of
+    /// these vanishes where the rows of `K` are independent, as pivots of an elimination do.
+    fn inverse_by_orthogonal_rows(
+        &mut self,
+        matrix: &[Vec<ExprId>],
+        forms: &[usize],
+    ) -> Option<Vec<Vec<ExprId>>> {
         let n = matrix.len();
         let (zero, one) = (self.bench.graph.zero(), self.bench.graph.one());
-        let mut rows: Vec<Vec<ExprId>> = matrix
-            .iter()
-            .enumerate()
+        // Rows of K beside those of the unit matrix become rows of Q beside those of T.
+        let mut rows: Vec<Vec<ExprId>> = (matrix.iter().enumerate())
             .map(|(i, row)| {
                 row.iter().copied().chain((0..n).map(|k| if i == k { one } else { zero })).collect()
             })
             .collect();
-        for c in 0..n {
-            // What is not shown to vanish may be divided by: it joins the domain of the chart, where it is measured.
-            let verdicts: Vec<Verdict> = (c..n).map(|r| self.bench.verdict_on_manifold(rows[r][c])).collect();
-            let first = |wanted| verdicts.iter().position(|verdict| *verdict == wanted);
-            let r = c + first(Verdict::Nonzero).or_else(|| first(Verdict::Unknown))?;
-            rows.swap(c, r);
-            let pivot = rows[c][c];
-            self.require(pivot, forms);
-            for e in &mut rows[c] {
-                *e = self.bench.graph.div(*e, pivot);
+        // The forms that each row is made of.
+        let mut made_of: Vec<Vec<usize>> = forms.iter().map(|form| vec![*form]).collect();
+        let mut terms = vec![vec![Vec::new(); n]; n];
+        for k in 0..n {
+            let square = self.bench.dot(&rows[k][..n], &rows[k][..n]);
+            let mut square = self.bench.tidy_alike(square, &mut self.beyond);
+            if self.bench.verdict_on_manifold(square) == Verdict::Zero {
+                return None;
             }
-            let pivot_row = rows[c].clone();
-            for row in rows.iter_mut().enumerate().filter(|(r, _)| *r != c).map(|(_, row)| row) {
-                let factor = row[c];
-                for (e, above) in row.iter_mut().zip(&pivot_row) {
-                    let product = self.bench.graph.mul(factor, *above);
-                    let difference = self.bench.graph.sub(*e, product);
-                    *e = self.bench.dropped(difference);
+            self.require(square, &made_of[k]);
+            if made_of[k].len() > 1 {
+                square = self.bench.keep_large(square);
+            }
+            for i in 0..n {
+                let quotient = self.bench.graph.div(rows[k][i], square);
+                let tidy = self.bench.tidy_alike(quotient, &mut self.beyond);
+                let scaled = self.bench.keep_large(tidy);
+                for (c, own) in rows[k][n..].iter().enumerate() {
+                    terms[i][c].push(self.bench.graph.mul(scaled, *own));
                 }
             }
+            let (row, own) = (rows[k].clone(), made_of[k].clone());
+            for (later, forms) in rows[k + 1..].iter_mut().zip(&mut made_of[k + 1..]) {
+                let product = self.bench.dot(&later[..n], &row[..n]);
+                let product = self.bench.dropped(product);
+                if self.bench.graph.is_zero(product) {
+                    continue;
+                }
+                let quotient = self.bench.graph.div(product, square);
+                let share = self.bench.keep_large(quotient);
+                for (e, own) in later.iter_mut().zip(&row) {
+                    let part = self.bench.graph.mul(share, *own);
+                    let difference = self.bench.graph.sub(*e, part);
+                    let difference = self.bench.dropped(difference);
+                    *e = self.bench.keep_large(difference);
+                }
+                forms.extend(&own);
+                forms.sort_unstable();
+                forms.dedup();
+            }
         }
-        Some(rows.into_iter().map(|row| row[n..].to_vec()).collect())
+        let mut entry = |terms: Vec<ExprId>| {
+            let sum = self.bench.graph.sum(terms);
+            let tidy = self.bench.tidy_alike(sum, &mut self.beyond);
+            self.bench.keep_large(tidy)
+        };
+        Some(terms.into_iter().map(|row| row.into_iter().map(&mut entry).collect()).collect())
     }
 
     /// Notes that an expression must not vanish, unless that is manifest: where it does some forms are dependent.

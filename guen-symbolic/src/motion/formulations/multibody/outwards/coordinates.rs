@@ -60,7 +60,7 @@ impl Kinematics<'_> {
         if matrix.len() != coordinates.len() {
             return None;
         }
-        let inverse = inverse(self.numbers, &matrix)?;
+        let inverse = inverse(self.numbers, &matrix);
         Some(self.numbers.dot(&inverse[place(coordinate)?], &sides))
     }
 

@@ -1,8 +1,8 @@
 //! The core: forms pulled back to parameters and unknowns, and solved for the unknowns.
 //!
 //! A form is divided by a coefficient that is not seen to vanish. Where no form has one, the forms that are left are solved by the blocks
-//! of their triangular form, each by its determinant, which vanishes only where the forms are dependent. A block of more than three forms
-//! that are not orthogonal is divided by a coefficient that may vanish.
+//! of their triangular form: small ones by their determinants, large ones by orthogonal rows. Both divide by what vanishes only where the
+//! forms are dependent.
 
 use std::collections::BTreeMap;
 
@@ -81,7 +81,7 @@ impl Core {
                     found.iter().map(|u| terms.remove(&unknowns[*u]).unwrap_or(Num::ZERO)).collect()
                 })
                 .collect();
-            let inverse = inverse(numbers, &matrix)?;
+            let inverse = inverse(numbers, &matrix);
             for (unknown, inverse) in found.iter().zip(&inverse) {
                 let mut combination = Combination::new();
                 let mut offset = Num::ZERO;
@@ -151,7 +151,7 @@ impl Core {
         for step in &self.steps {
             let sides: Vec<Num> = step.rows.iter().map(|row| right[*row]).collect();
             for (unknown, inverse) in step.unknowns.iter().zip(&step.inverse) {
-                found[*unknown] = dot(numbers, &sides, inverse).neg();
+                found[*unknown] = numbers.dot(&sides, inverse).neg();
             }
             for (other, coefficients) in &step.others {
                 for (c, unknown) in coefficients.iter().zip(&step.unknowns) {
@@ -169,15 +169,6 @@ impl Core {
         }
         found
     }
-}
-
-fn dot(numbers: &mut Numbering, a: &[Num], b: &[Num]) -> Num {
-    let mut sum = Num::ZERO;
-    for (a, b) in a.iter().zip(b) {
-        let product = numbers.mul(*a, *b);
-        sum = numbers.add(sum, product);
-    }
-    sum
 }
 
 /// Numbers the moments of what acts at a point along a direction, about all joints on the way to the root: about the axis of a joint
@@ -289,48 +280,59 @@ fn choose(
     if let Some((.., row, unknown)) = alone {
         return Some((vec![*row], vec![*unknown]));
     }
-    if let Some((of, found)) = blocks.into_iter().next() {
-        let entry = |row: &usize, u: &usize| rows[*row].0.get(&unknowns[*u]).copied().unwrap_or(Num::ZERO);
-        let matrix: Vec<Vec<Num>> =
-            of.iter().map(|row| found.iter().map(|unknown| entry(row, unknown)).collect()).collect();
-        if of.len() <= DETERMINANT_SIZE || is_orthogonal(planner.numbers, &matrix) {
-            return Some((of, found));
-        }
-    }
-    Some((vec![row], vec![unknown]))
+    Some(blocks.into_iter().next().unwrap_or_else(|| (vec![row], vec![unknown])))
 }
 
-/// The inverse of the coefficients of one, two or three forms, or of orthogonal ones.
-pub(in crate::motion) fn inverse(numbers: &mut Numbering, matrix: &[Vec<Num>]) -> Option<Vec<Vec<Num>>> {
+/// The inverse of the coefficients of forms: a row for each unknown.
+pub(in crate::motion) fn inverse(numbers: &mut Numbering, matrix: &[Vec<Num>]) -> Vec<Vec<Num>> {
     match matrix.len() {
-        1 => Some(vec![vec![numbers.div(Num::ONE, matrix[0][0])]]),
-        _ if is_orthogonal(numbers, matrix) => Some(orthogonal_inverse(numbers, matrix)),
-        2..=DETERMINANT_SIZE => Some(inverse_by_determinant(numbers, matrix)),
-        _ => None,
+        1 => vec![vec![numbers.div(Num::ONE, matrix[0][0])]],
+        2..=DETERMINANT_SIZE if !is_orthogonal(numbers, matrix) => inverse_by_determinant(numbers, matrix),
+        _ => inverse_by_orthogonal_rows(numbers, matrix),
     }
 }
 
 /// Whether rows are orthogonal to each other, modulo the prime.
 fn is_orthogonal(numbers: &Numbering, matrix: &[Vec<Num>]) -> bool {
-    let residues: Vec<Vec<u64>> =
-        matrix.iter().map(|row| row.iter().map(|e| numbers.residue(*e)).collect()).collect();
-    residues.iter().enumerate().all(|(i, row)| {
-        residues[..i].iter().all(|other| {
-            let products = row.iter().zip(other).map(|(a, b)| field::mul(*a, *b));
-            products.fold(0, field::add) == 0
-        })
-    })
+    (0..matrix.len()).all(|i| (0..i).all(|k| are_orthogonal(numbers, &matrix[i], &matrix[k])))
 }
 
-/// `K^-1 = K^T D^-1` for orthogonal rows, `D` the squares of their lengths.
-fn orthogonal_inverse(numbers: &mut Numbering, matrix: &[Vec<Num>]) -> Vec<Vec<Num>> {
+/// Whether two rows are orthogonal, modulo the prime.
+fn are_orthogonal(numbers: &Numbering, a: &[Num], b: &[Num]) -> bool {
+    let products = a.iter().zip(b).map(|(a, b)| field::mul(numbers.residue(*a), numbers.residue(*b)));
+    products.fold(0, field::add) == 0
+}
+
+/// `K^-1 = Q^T D^-1 T`, where the rows of `Q = T K` are orthogonal (Gram and Schmidt) and `D` is the squares of their lengths. None of
+/// these vanishes where the rows of `K` are independent.
+fn inverse_by_orthogonal_rows(numbers: &mut Numbering, matrix: &[Vec<Num>]) -> Vec<Vec<Num>> {
     let n = matrix.len();
+    let mut rows = matrix.to_vec();
+    let mut made: Vec<Vec<Num>> =
+        (0..n).map(|i| (0..n).map(|k| if i == k { Num::ONE } else { Num::ZERO }).collect()).collect();
     let mut inverse = vec![vec![Num::ZERO; n]; n];
-    for (k, row) in matrix.iter().enumerate() {
-        let square = dot(numbers, row, row);
+    for k in 0..n {
+        let square = numbers.dot(&rows[k], &rows[k]);
         let reciprocal = numbers.div(Num::ONE, square);
-        for (i, e) in row.iter().enumerate() {
-            inverse[i][k] = numbers.mul(*e, reciprocal);
+        let scaled: Vec<Num> = rows[k].iter().map(|e| numbers.mul(*e, reciprocal)).collect();
+        for (e, inverse) in scaled.iter().zip(&mut inverse) {
+            for (entry, own) in inverse.iter_mut().zip(&made[k]) {
+                let part = numbers.mul(*e, *own);
+                *entry = numbers.add(*entry, part);
+            }
+        }
+        for later in k + 1..n {
+            if are_orthogonal(numbers, &rows[later], &rows[k]) {
+                continue;
+            }
+            let share = numbers.dot(&rows[later], &scaled);
+            for list in [&mut rows, &mut made] {
+                let own = list[k].clone();
+                for (e, own) in list[later].iter_mut().zip(own) {
+                    let part = numbers.mul(share, own);
+                    *e = numbers.sub(*e, part);
+                }
+            }
         }
     }
     inverse
@@ -350,7 +352,7 @@ fn inverse_by_determinant(numbers: &mut Numbering, matrix: &[Vec<Num>]) -> Vec<V
         numbers.sub(first, second)
     };
     let cofactors: Vec<Vec<Num>> = (0..n).map(|i| (0..n).map(|j| cofactor(i, j)).collect()).collect();
-    let determinant = dot(numbers, &matrix[0], &cofactors[0]);
+    let determinant = numbers.dot(&matrix[0], &cofactors[0]);
     let reciprocal = numbers.div(Num::ONE, determinant);
     (0..n).map(|i| (0..n).map(|k| numbers.mul(cofactors[k][i], reciprocal)).collect()).collect()
 }
