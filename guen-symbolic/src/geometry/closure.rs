@@ -42,19 +42,6 @@ impl Closure {
         let mut growth = vec![l];
         let mut kept: Vec<Vec<ExprId>> = Vec::new();
         let mut complete = true;
-        let mut enlarges = |bench: &mut Workbench, kept: &mut Vec<Vec<ExprId>>, y: &Vec<ExprId>| {
-            if y.iter().all(|e| bench.graph.is_zero(*e)) {
-                return false;
-            }
-            kept.push(y.clone());
-            let rank = bench.zero.rank(&mut bench.graph, kept, true);
-            complete &= rank.is_some();
-            let larger = rank == Some(kept.len());
-            if !larger {
-                kept.pop();
-            }
-            larger
-        };
         // [X_r, X_s] modulo D_1 has the components C_rsv.
         let mut fresh = Vec::new();
         'first: for s in 1..=l {
@@ -63,7 +50,9 @@ impl Closure {
                     break 'first;
                 }
                 let y: Vec<ExprId> = (l + 1..=n).map(|v| brackets.coefficient(bench, r, s, v)).collect();
-                if enlarges(bench, &mut kept, &y) {
+                let larger = enlarges(bench, &mut kept, &y);
+                complete &= larger.is_some();
+                if larger == Some(true) {
                     fresh.push(y);
                 }
             }
@@ -74,26 +63,46 @@ impl Closure {
             if missing == 0 || !complete {
                 break;
             }
-            let found = next_level::enlarging(bench, (forms, operators, brackets), &fresh, &kept, missing);
+            // Numbers modulo the prime have the sign of a root by chance: the rank is asked of expressions then.
+            let has_signs = fresh.iter().flatten().any(|e| bench.zero.has_signs_or_roots(&bench.graph, *e));
+            let all = || (0..fresh.len()).flat_map(|y| (0..=l).map(move |r| (y, r))).collect();
+            let found = match has_signs {
+                true => Some(all()),
+                false => next_level::enlarging(bench, (forms, operators, brackets), &fresh, &kept, missing),
+            };
             let Some(found) = found else {
                 complete = false;
                 break;
             };
-            if found.len() == missing {
+            if !has_signs && found.len() == missing {
                 // No constraint is left that could be integrable, and nothing looks at these brackets.
                 growth.push(n);
                 break;
             }
-            let mut next = Vec::with_capacity(found.len());
+            let mut next = Vec::with_capacity(missing);
             for (y, r) in found {
+                if kept.len() == constraints {
+                    break;
+                }
                 let bracket = bracket(bench, brackets, &mut flows[r], (r, l), &fresh[y]);
                 if bench.graph.work() > start + WORK_LIMIT {
                     complete = false;
                     break;
                 }
-                next.push(bracket);
+                match has_signs {
+                    true => {
+                        let larger = enlarges(bench, &mut kept, &bracket);
+                        complete &= larger.is_some();
+                        if larger == Some(true) {
+                            next.push(bracket);
+                        }
+                    }
+                    false => {
+                        kept.push(bracket.clone());
+                        next.push(bracket);
+                    }
+                }
             }
-            kept.extend(next.iter().cloned());
             fresh = next;
         }
         let is_full = growth.last() == Some(&n);
@@ -113,6 +122,20 @@ impl Closure {
     pub fn is_holonomic(&self) -> bool {
         self.complete && self.growth.len() == 1
     }
+}
+
+/// Whether a bracket enlarges the rank of those that are kept, and keeps it then; `None` if no point was found.
+fn enlarges(bench: &mut Workbench, kept: &mut Vec<Vec<ExprId>>, y: &[ExprId]) -> Option<bool> {
+    if y.iter().all(|e| bench.graph.is_zero(*e)) {
+        return Some(false);
+    }
+    kept.push(y.to_vec());
+    let rank = bench.zero.rank(&mut bench.graph, kept, true);
+    let larger = rank.map(|rank| rank == kept.len());
+    if larger != Some(true) {
+        kept.pop();
+    }
+    larger
 }
 
 /// `[X_r, Y]` modulo `D_1`.

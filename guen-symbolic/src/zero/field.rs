@@ -234,13 +234,6 @@ pub(crate) fn kernel(rows: &[Vec<u64>], width: usize) -> Vec<Vec<u64>> {
         .collect()
 }
 
-/// A basis of the linear relations `w rows = 0` among rows.
-pub(crate) fn relations(rows: &[Vec<u64>]) -> Vec<Vec<u64>> {
-    let width = rows.first().map_or(0, Vec::len);
-    let columns: Vec<Vec<u64>> = (0..width).map(|j| rows.iter().map(|row| row[j]).collect()).collect();
-    kernel(&columns, rows.len())
-}
-
 /// Returns a solution of `rows x = right`, free unknowns zero; `None` if there is none.
 pub(crate) fn solve(rows: &[Vec<u64>], right: &[u64]) -> Option<Vec<u64>> {
     let width = rows.first().map_or(0, Vec::len);
@@ -294,14 +287,6 @@ mod tests {
     fn linear_algebra() {
         let rows = vec![vec![1, 2, 3], vec![2, 4, 6], vec![1, 0, 1]];
         assert_eq!(rank(&rows), 2);
-        let relation = &relations(&rows)[0];
-        let mut total = vec![0; 3];
-        for (w, row) in relation.iter().zip(&rows) {
-            for (sum, value) in total.iter_mut().zip(row) {
-                *sum = add(*sum, mul(*w, *value));
-            }
-        }
-        assert_eq!(total, [0; 3]);
         assert_eq!(solve(&rows, &[6, 12, 2]), Some(vec![2, 2, 0]));
         assert_eq!(solve(&rows, &[6, 11, 2]), None);
     }

@@ -268,6 +268,12 @@ impl ZeroTest {
         self.table.flags[e.index()] & SIGN != 0
     }
 
+    /// Whether absolute values, signs or roots occur: a residue has their sign by chance.
+    pub(crate) fn has_signs_or_roots(&mut self, g: &Graph, e: ExprId) -> bool {
+        self.table.scan(g);
+        self.table.flags[e.index()] & (SIGN | ROOT) != 0
+    }
+
     /// Whether roots occur that on the manifold are something or its opposite, as `sqrt(x^2 + y^2)` is where `x^2 + y^2 = l^2`: at one
     /// point they tell nothing of others. A root that a constraint has is what that says it is.
     pub(crate) fn has_roots_of_squares(&mut self, g: &Graph, e: ExprId) -> bool {
@@ -332,28 +338,20 @@ impl ZeroTest {
             rank = rank.max(field::rank(&matrix));
             // No point shows more than all rows.
             if rank == rows.len() {
-                break;
+                return Some(rank);
+            }
+        }
+        // Residues have the sign of a root by chance, and two points need not have both: `|x| - x` vanishes at half of them.
+        if flat.iter().any(|e| self.has_signs_or_roots(g, *e)) {
+            for number in 0..REAL_POINTS {
+                let Some(point) = self.real_point(g, number, on_manifold) else { continue };
+                rank = rank.max(point.rank(g, rows));
+                if rank == rows.len() {
+                    break;
+                }
             }
         }
         Some(rank)
-    }
-
-    /// The linear relations `sum w_i row_i = 0` among rows at one general point, as a basis of vectors `w` modulo
-    /// the prime: which rows take part in a relation is the same at all general points.
-    pub fn relations(
-        &mut self,
-        g: &mut Graph,
-        rows: &[Vec<ExprId>],
-        on_manifold: bool,
-    ) -> Option<Vec<Vec<u64>>> {
-        if on_manifold && !self.manifold_is_solved() {
-            return None;
-        }
-        let flat: Vec<ExprId> = rows.iter().flatten().copied().collect();
-        let mut values = self.residues(g, 0, &flat, on_manifold)?.into_iter();
-        let matrix: Vec<Vec<u64>> =
-            rows.iter().map(|row| values.by_ref().take(row.len()).collect()).collect();
-        Some(field::relations(&matrix))
     }
 
     /// The equations `f(t, x) = 0` that follow from others of them wherever all hold, although gradients by the coordinates are
@@ -513,19 +511,25 @@ impl ZeroTest {
         Residues::Few
     }
 
+    /// The real point of a number, which is made once; `None` if there is no such point.
+    fn real_point(&mut self, g: &Graph, number: usize, on_manifold: bool) -> Option<&mut RealPoint> {
+        let manifold = self.manifold.as_ref().filter(|_| on_manifold);
+        let domain = if on_manifold { &mut self.bound } else { &mut self.free };
+        while domain.reals.len() <= number {
+            let next = domain.reals.len() as u64;
+            domain.reals.push(match manifold {
+                Some(manifold) => manifold.real_point(g, next),
+                None => Some(RealPoint::new(next)),
+            });
+        }
+        domain.reals[number].as_mut()
+    }
+
     /// Looks at real points: `None` if one shows that the value is not zero, else how many show nothing.
     fn at_real_points(&mut self, g: &mut Graph, e: ExprId, on_manifold: bool) -> Option<usize> {
         let mut small = 0;
         for number in 0..REAL_POINTS {
-            let domain = if on_manifold { &mut self.bound } else { &mut self.free };
-            if domain.reals.len() <= number {
-                let point = match &self.manifold {
-                    Some(manifold) if on_manifold => manifold.real_point(g, number as u64),
-                    _ => Some(RealPoint::new(number as u64)),
-                };
-                domain.reals.push(point);
-            }
-            let Some(point) = &mut domain.reals[number] else { continue };
+            let Some(point) = self.real_point(g, number, on_manifold) else { continue };
             match point.sight(g, e) {
                 Sighting::Nonzero => return None,
                 Sighting::Small => small += 1,

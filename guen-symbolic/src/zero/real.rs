@@ -277,6 +277,29 @@ impl Ball {
     fn is_distinct(self) -> bool {
         exponent(self.value) > self.error + DISTINCT
     }
+
+    fn minus(self, other: Ball) -> Ball {
+        let value = self.value - other.value;
+        let rounding = exponent(self.value).max(exponent(other.value)) + 2.0 + ROUNDING;
+        Ball { value, error: plus(plus(self.error, other.error), rounding) }
+    }
+
+    fn times(self, other: Ball) -> Ball {
+        let value = self.value * other.value;
+        let carried = plus(
+            self.error + plus(exponent(other.value) + 1.0, other.error),
+            other.error + exponent(self.value) + 1.0,
+        );
+        Ball { value, error: plus(carried, exponent(value) + 1.0 + ROUNDING) }
+    }
+
+    /// The quotient by a value that is distinct from zero.
+    fn over(self, other: Ball) -> Ball {
+        let value = self.value / other.value;
+        let divisor = exponent(other.value);
+        let carried = plus(self.error - divisor, exponent(value) + 1.0 + other.error - divisor) + 1.0;
+        Ball { value, error: plus(carried, exponent(value) + 1.0 + ROUNDING) }
+    }
 }
 
 /// The verdict of a real point on a value.
@@ -339,13 +362,39 @@ impl RealPoint {
         if negative { -size } else { size }
     }
 
-    /// Returns the verdict of this point on an expression.
-    pub(super) fn sight(&mut self, graph: &Graph, e: ExprId) -> Sighting {
+    /// The value of an expression; `None` outside its domain.
+    fn ball(&mut self, graph: &Graph, e: ExprId) -> Option<Ball> {
         for id in graph.reachable(&[e], |id| self.memo.contains_key(&id)) {
             let ball = self.step(graph, id).filter(|ball| ball.value.is_finite() && !ball.error.is_nan());
             self.memo.insert(id, ball);
         }
-        match self.memo[&e] {
+        self.memo[&e]
+    }
+
+    /// The rank of a matrix as far as this point shows it: the number of rows with an entry that is clearly not zero, beside those
+    /// before. None where an entry has no value.
+    pub(super) fn rank(&mut self, graph: &Graph, rows: &[Vec<ExprId>]) -> usize {
+        let values = rows.iter().map(|row| row.iter().map(|e| self.ball(graph, *e)).collect());
+        let Some(mut rows) = values.collect::<Option<Vec<Vec<Ball>>>>() else { return 0 };
+        let mut rank = 0;
+        while let Some((place, column)) = rows.iter().enumerate().find_map(|(place, row)| {
+            row.iter().position(|entry| entry.is_distinct()).map(|column| (place, column))
+        }) {
+            rank += 1;
+            let row = rows.swap_remove(place);
+            for other in &mut rows {
+                let factor = other[column].over(row[column]);
+                for (entry, own) in other.iter_mut().zip(&row) {
+                    *entry = entry.minus(factor.times(*own));
+                }
+            }
+        }
+        rank
+    }
+
+    /// Returns the verdict of this point on an expression.
+    pub(super) fn sight(&mut self, graph: &Graph, e: ExprId) -> Sighting {
+        match self.ball(graph, e) {
             None => Sighting::Nothing,
             Some(ball) if ball.is_distinct() => Sighting::Nonzero,
             Some(ball) if ball.error < USELESS_BOUND => Sighting::Small,
