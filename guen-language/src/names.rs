@@ -157,6 +157,33 @@ const GENERATED_ITEMS: &[&str] = &[
     "missing",
 ];
 
+/// Constants of a generated module.
+const GENERATED_CONSTANTS: &[&str] = &[
+    "CATASTATIC",
+    "CLASS",
+    "CONSERVATIVE",
+    "COST",
+    "DOMAIN",
+    "DOMAIN_REASONS",
+    "FUNCTIONS",
+    "GROWTH",
+    "GROWTH_IS_COMPLETE",
+    "INFO",
+    "INTEGRABLE",
+    "LATEX",
+    "LEVELS",
+    "LINEARIZATION_COST",
+    "MODES",
+    "MODE_INFO",
+    "PREPARE_COST",
+    "REDUCED",
+    "REPORT",
+    "SCLERONOMIC",
+    "SINGULARITIES",
+    "SOURCE",
+    "SWITCHES",
+];
+
 /// The struct of the states of all contacts.
 pub(crate) const MODES: &str = "Mode";
 
@@ -215,6 +242,11 @@ pub fn is_generated_item(word: &str) -> bool {
     GENERATED_ITEMS.contains(&word)
         || word.starts_with(RESERVED_PREFIX)
         || number.is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
+}
+
+/// Whether a scene or the states of a contact cannot have this name: their types may be values, too, as constants are.
+pub(crate) fn is_generated_type_or_constant(word: &str) -> bool {
+    is_generated_item(word) || GENERATED_CONSTANTS.contains(&word)
 }
 
 /// Whether a word in a pattern may mean an item: the operators and constants of a generated module are in capitals,

@@ -219,3 +219,17 @@ mechanical_system! {
         scene Resting { modes { floor: open; } track slow; }
     }
 }
+
+mechanical_system! {
+    /// Contacts that are entries of an array, and one of an instance.
+    pub system Row {
+        component Wall(p: scalar) { contacts { c: gap = p; } }
+        coordinates { x, y[2], z }
+        parameters { u = dot(x); for i in 0..2 { v[i] = dot(y[i]); } w = dot(z); }
+        kinetic_energy = u^2/2 + v[0]^2/2 + v[1]^2/2 + w^2/2;
+        potential_energy = 3*y[0] + 4*y[1] + 5*z;
+        use Wall as a { p: z }
+        contacts { for i in 0..2 { floor[i]: gap = y[i]; } }
+        scene Held { modes { floor[0]: closed; floor[1]: open; a.c: closed; } track x, v[1]; provide reactions; }
+    }
+}

@@ -79,3 +79,12 @@ fn a_hoop_that_sticks_is_that_of_the_paper() {
     }
     assert_eq!(hoop_on_floor::whole::COST, hoop::COST);
 }
+
+/// Rows of contacts that are entries of arrays and belong to instances.
+#[test]
+fn reactions_of_arrays_and_of_instances() {
+    let held = row::Held::default().prepare().unwrap();
+    let state = row::held::State { x: 1.0, u: 2.0, ..Default::default() };
+    let reactions = held.reactions(0.0, &state);
+    assert_eq!((reactions.floor_n_0, reactions.a.c_n), (3.0, 5.0));
+}

@@ -12,6 +12,16 @@ guen::mechanical_system! {
     }
 }
 
+guen::mechanical_system! {
+    /// Names of values of the module, and of the prelude.
+    pub system Mass {
+        constants { X0, COST, None, m > 0 }
+        coordinates { x }
+        parameters { u = dot(x); }
+        kinetic_energy = m/2*u^2;
+    }
+}
+
 /// On purpose; what a scene fixes need not be used.
 mod silent {
     #![allow(unused_variables)]

@@ -60,6 +60,36 @@ guen::mechanical_system! {
 }
 
 /// What must not vanish and is constant in a scene alone is one of its pivots.
+guen::mechanical_system! {
+    /// Entries that are left of arrays, beside values that have the names of their fields.
+    pub system Alone {
+        constants { m[2] > 0 = 2, m_1 > 0 = 3 }
+        inputs { u[2], u_0 }
+        coordinates { q[2], q_0 }
+        parameters { v[0] = dot(q[0]); v[1] = dot(q[1]); v_0 = dot(q_0); }
+        kinetic_energy = m[0]/2*v[0]^2 + m[1]/2*v[1]^2 + m_1/2*v_0^2;
+        potential_energy = q[0]^2/2 + q[1]^2/2;
+        forces { u[0] along v[0]; u[1] along v[1]; u_0 along v_0; }
+        scene First { track q[0], q_0; fix m[0] = 5; }
+        scene Second { track q[1], q_0; fix m[0] = 5; }
+    }
+}
+
+/// A field of an entry that stands alone is longer by `_` where another value has its name.
+#[test]
+fn entries_alone_beside_values_with_the_names_of_their_fields() {
+    let first = alone::First { m_1: 3.0, ..Default::default() }.prepare().unwrap();
+    let state = alone::first::State { q_0_: 1.0, v_0_: 0.5, q_0: 2.0, v_0: 0.25 };
+    let rate = first.rhs(0.0, &state, &alone::first::Inputs { u_0_: 10.0, u_0: 6.0 });
+    assert_eq!((rate.q_0_, rate.q_0), (0.5, 0.25));
+    assert_eq!((rate.v_0_, rate.v_0), ((10.0 - 1.0) / 5.0, 2.0));
+    assert_eq!(alone::first::State::NAMES, ["q[0]", "q_0", "v[0]", "v_0"]);
+    let second = alone::Second { m_1_: 4.0, ..Default::default() }.prepare().unwrap();
+    let state = alone::second::State { q_1: 1.0, ..Default::default() };
+    let rate = second.rhs(0.0, &state, &alone::second::Inputs { u_1: 9.0, u_0: 0.0 });
+    assert_eq!(rate.v_1, (9.0 - 1.0) / 4.0);
+}
+
 #[test]
 fn what_becomes_constant_in_a_scene_is_checked_when_it_is_prepared() {
     let only = unsettled::Only { m: 1.5 }.prepare().unwrap();

@@ -15,9 +15,13 @@ pub(super) fn items(identifiers: &Identifiers) -> TokenStream {
     let Identifiers { declared, used, unused } = identifiers;
     let unused = (!unused.is_empty()).then(|| {
         quote! {
-            #[allow(dead_code, reason = "for the compiler's lint: it is never called")]
-            fn __guen_nothing_is_ignored_in_silence() {
-                #(let #unused = ();)*
+            // A module of its own: in a pattern a constant of the system's module, or `None`, would be meant.
+            #[no_implicit_prelude]
+            mod __guen_unused {
+                #[allow(dead_code, reason = "for the compiler's lint: it is never called")]
+                fn nothing_is_ignored_in_silence() {
+                    #(let #unused = ();)*
+                }
             }
         }
     });

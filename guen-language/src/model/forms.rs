@@ -368,6 +368,13 @@ impl Evaluator<'_> {
                 Fault::new(span, format!("parameter `{name}` vanishes identically"))
                     .help(format!("remove `{name}`"))
             }
+            (Verdict::Zero, FormKind::Holonomic)
+                if form.position.is_some_and(|left| !self.bench.vanishes(left)) =>
+            {
+                Fault::new(span, format!("holonomic constraint `{name}` does not depend on the coordinates"))
+                    .note("it holds in every position, or in none")
+                    .help(format!("remove `{name}`"))
+            }
             (Verdict::Zero, _) => Fault::new(span, format!("{noun} `{name}` vanishes identically"))
                 .note("it says `0 = 0`")
                 .help(format!("remove `{name}`")),

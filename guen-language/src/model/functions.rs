@@ -74,7 +74,9 @@ impl Evaluator<'_> {
             }
             text => {
                 let mut fault = Fault::new(name.span(), format!("unknown method `{text}`"));
-                if let Some(near) =
+                if names::is_function(text) {
+                    fault = fault.help(format!("it is a function, `{text}(..)`"));
+                } else if let Some(near) =
                     names::nearest(text, names::SCALAR_FUNCTIONS.iter().copied().chain(["powi"]))
                 {
                     fault = fault.help(format!("did you mean `{near}`?"));

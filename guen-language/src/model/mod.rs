@@ -258,6 +258,13 @@ pub struct FormEntry<'a> {
     pub mentioned_in_energy: bool,
 }
 
+impl FormEntry<'_> {
+    /// The name with the place of what was written: of the component, where a vector was written, and of the rate of a coordinate.
+    pub fn own_name(&self) -> Name {
+        self.written.part(&self.name).unwrap_or_else(|| self.written.clone())
+    }
+}
+
 /// A holonomic equation that follows from others wherever all hold, and is no form.
 pub struct RedundantEntry<'a> {
     /// The declaration of the equation.

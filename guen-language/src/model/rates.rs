@@ -91,8 +91,10 @@ impl Evaluator<'_> {
                 written.span(),
                 format!("the rate of `{written}` is chosen as a parameter, and `{name}` is {}", taken.noun()),
             );
+            // As in the component, if the coordinate belongs to an instance.
+            let own = written.text.rsplit('.').next().unwrap_or_default();
             self.faults.report(fault.help(format!(
-                "declare `parameters {{ rate_of_{written} = dot({written}); }}`, or give {} another name",
+                "declare `parameters {{ rate_of_{own} = dot({own}); }}`, or give {} another name",
                 taken.noun().replacen("an ", "the ", 1).replacen("a ", "the ", 1)
             )));
         }

@@ -68,7 +68,9 @@ impl Evaluator<'_> {
     /// A scene becomes a struct and a module in the module of the system.
     fn scene_name(&mut self, name: &Name, declaration: &Declaration, earlier: &[&Scene]) {
         let module = module_name(&name.ident, "scene");
-        let taken = if names::is_generated_item(&name.text) || names::is_generated_item(&module.to_string()) {
+        let taken = if names::is_generated_type_or_constant(&name.text)
+            || names::is_generated_item(&module.to_string())
+        {
             Some(format!("the module of `{}` has an item of this name", declaration.name))
         } else if name.text == declaration.name.text {
             Some("this is the name of the system".to_owned())

@@ -18,7 +18,7 @@ pub(super) fn items(declaration: &Declaration, entries: &Entries, forms: &Forms)
         let is_of_system = scene.name.text == declaration.name.text
             || module(scene) == declaration.name.text
             || crate::names::is_generated_item(&module(scene).to_string())
-            || crate::names::is_generated_item(&scene.name.text)
+            || crate::names::is_generated_type_or_constant(&scene.name.text)
             || crate::names::CARRIED_ITEMS.contains(&scene.name.text.as_str());
         if !is_of_system && scenes.iter().all(|other| module(other) != module(scene)) {
             scenes.push(sound(scene, declaration, entries, forms));

@@ -3,7 +3,7 @@
 use proc_macro2::Span;
 
 use super::{Declaration, Docs, Equation, Expression, Item, Name, Path};
-use crate::names::{MODES, is_generated_item, is_rust_keyword, type_name};
+use crate::names::{MODES, is_generated_type_or_constant, is_rust_keyword, type_name};
 
 /// `name: word = e, word = e, ..;` of `contacts`.
 #[derive(Debug, Clone)]
@@ -283,14 +283,15 @@ impl Declaration {
         let is_instance = self.instances.iter().any(|instance| instance.path.names() == path);
         if !states.module.is_empty() {
             let of = states.module.join(".");
-            let is_taken = name == MODES || is_generated_item(name) || is_rust_keyword(name) || is_instance;
+            let is_taken =
+                name == MODES || is_generated_type_or_constant(name) || is_rust_keyword(name) || is_instance;
             return is_taken.then(|| format!("the module of `{of}` has an item of this name"));
         }
         let mut scenes = self.items.iter().filter_map(|item| match item {
             Item::Scene(scene) => Some(&scene.name.text),
             _ => None,
         });
-        if name == MODES || is_generated_item(name) || is_rust_keyword(name) {
+        if name == MODES || is_generated_type_or_constant(name) || is_rust_keyword(name) {
             Some(format!("the module of `{}` has an item of this name", self.name))
         } else if name == self.name.text {
             Some("this is the name of the system".to_owned())

@@ -6,6 +6,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use super::{Index, Path};
+use crate::names::array_of;
 
 /// A name, kept with the identifier that the expansion will use.
 #[derive(Debug, Clone)]
@@ -61,6 +62,15 @@ impl Name {
                 *field = format_ident!("{field}{suffix}", span = field.span());
                 Name::at(path)
             }
+        }
+    }
+
+    /// The name of a part of what has this name, as `v_x[1]` is of `v[1]`, and `contact_n[0]` of `contact[0]`; the name itself where both are
+    /// the same. `None` if the text names no part.
+    pub fn part(&self, text: &str) -> Option<Name> {
+        match array_of(text).strip_prefix(array_of(&self.text))? {
+            "" => Some(self.clone()),
+            suffix => suffix.starts_with('_').then(|| self.suffixed(suffix)),
         }
     }
 

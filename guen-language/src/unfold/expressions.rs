@@ -37,12 +37,18 @@ impl Unfolder<'_> {
             }
             ExpressionKind::Negation(operand) => negation(e, self.unfolded(operand)),
             ExpressionKind::Sum { first, rest } => {
-                let first = self.unfolded(first);
-                let mut terms = Vec::with_capacity(rest.len());
-                for term in rest {
-                    push_term(&mut terms, term, self.unfolded(&term.value));
+                let own = self.unfolded(first);
+                let mut terms = Vec::with_capacity(rest.len() + 1);
+                if !is_empty_sum(first, &own) {
+                    terms.push(Term { operator: AddOperator::Plus, span: e.span, value: *own });
                 }
-                sum(e, first, terms)
+                for term in rest {
+                    let value = self.unfolded(&term.value);
+                    if !is_empty_sum(&term.value, &value) {
+                        push_term(&mut terms, term, value);
+                    }
+                }
+                sum(e, terms)
             }
             ExpressionKind::Product { first, rest } => {
                 let first = self.unfolded(first);
@@ -299,8 +305,26 @@ fn negation(e: &Expression, operand: Box<Expression>) -> Box<Expression> {
     with_kind(e, ExpressionKind::Negation(operand))
 }
 
-fn sum(e: &Expression, first: Box<Expression>, rest: Vec<Term>) -> Box<Expression> {
-    with_kind(e, ExpressionKind::Sum { first, rest })
+/// The sum of terms; zero without one. The operator of the first is a sign.
+fn sum(e: &Expression, mut terms: Vec<Term>) -> Box<Expression> {
+    if terms.is_empty() {
+        return with_kind(e, number(0, e.span).kind);
+    }
+    let Term { operator, value, .. } = terms.remove(0);
+    let mut first = Box::new(value);
+    if operator == AddOperator::Minus {
+        first = Box::new(Expression::new(first.span, ExpressionKind::Negation(first)));
+    }
+    match terms.is_empty() {
+        true => with_kind(e, first.kind),
+        false => with_kind(e, ExpressionKind::Sum { first, rest: terms }),
+    }
+}
+
+/// Whether a term was a sum over an empty range. Beside other terms it is left out, because these may be vectors.
+fn is_empty_sum(written: &Expression, unfolded: &Expression) -> bool {
+    let is_sum = matches!(&written.kind, ExpressionKind::Fold(fold) if fold.function.text == "sum");
+    is_sum && matches!(&unfolded.kind, ExpressionKind::Number(number) if number.text == "0")
 }
 
 fn product(e: &Expression, first: Box<Expression>, rest: Vec<Factor>) -> Box<Expression> {

@@ -26,6 +26,9 @@ macro_rules! real_for_float {
         fn from_parts(parts: &[(i64, i32)]) -> Self {
             let Some((&(mantissa, exponent), rest)) = parts.split_first() else { return 0.0 };
             let leading = $scale(mantissa as $float, exponent);
+            if leading.is_infinite() {
+                return leading;
+            }
             let mut tail = 0.0;
             for &(mantissa, exponent) in rest.iter().rev() {
                 tail += $scale(mantissa as $float, exponent);
@@ -283,6 +286,8 @@ mod tests {
         assert_eq!(f64::from_parts(&[(1, -1074)]), f64::from_bits(1));
         assert_eq!(f64::from_parts(&[((1 << 53) - 1, 971)]), f64::MAX);
         assert!(f64::from_parts(&[(1, 1024)]).is_infinite());
+        // The remainder of 1e390 is beyond the largest double too, and may have the other sign.
+        assert_eq!(f64::from_parts(&[(-1, 1300), (1, 1240)]), f64::NEG_INFINITY);
     }
 
     #[test]

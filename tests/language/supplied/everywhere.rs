@@ -36,6 +36,27 @@ guen::mechanical_system! {
     }
 }
 
+guen::mechanical_system! {
+    /// A chart that ends, a stop and a function of the program at once.
+    pub system Stopped {
+        functions { law(a); }
+        coordinates { f }
+        parameters { p = f*dot(f); }
+        kinetic_energy = p^2/2;
+        forces { law(f) along p; }
+        contacts { tip: gap = f - 1, restitution = 1; }
+    }
+}
+
+#[test]
+fn contacts_where_the_chart_ends_and_the_program_supplies_a_force() {
+    let stopped = Stopped::new(Wave { a: -2.0, b: 0.0 }).prepare().unwrap();
+    // With s = f^2/2 it is s'' = -2, from 2 to the stop at 1/2.
+    let motion = stopped.simulate(&stopped::State { f: 2.0, p: 0.0 }, 0.0..1.3).unwrap();
+    let [impact] = motion.transitions() else { panic!("{:?}", motion.transitions()) };
+    assert!((impact.time - 1.5_f64.sqrt()).abs() < 1e-9);
+}
+
 #[test]
 fn constructors_take_functions_behind_constants() {
     let wave = Wave { a: 1.0, b: 0.5 };

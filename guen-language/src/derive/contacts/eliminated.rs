@@ -36,7 +36,7 @@ pub(in crate::derive) fn add(model: &mut Model<'_>, system: &DerivedLevel, scene
         for (place, mode) in own.modes.iter().enumerate().filter(|(_, mode)| is_held(&contacts, mode)) {
             let selection = &level.selection;
             // Velocities of the best condition first; then those that the scene has.
-            let kept = selection.parameters.iter().map(|s| one_mode::name_of(&model.forms[*s])).collect();
+            let kept = selection.parameters.iter().map(|s| model.forms[*s].own_name()).collect();
             let found = [Vec::new(), kept].into_iter().find_map(|tracks: Vec<Name>| {
                 rates(model, system, (&contacts, whole), (entry, mode, tracks), selection)
             });

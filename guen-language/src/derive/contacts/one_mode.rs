@@ -6,8 +6,6 @@
 
 mod written;
 
-pub(super) use written::name_of;
-
 use guen_symbolic::{ExprId, Substitution, SymbolId, chosen_rates, independent_rows};
 
 use super::ContactFacts;

@@ -171,7 +171,7 @@ pub(in crate::emit) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> Toke
             ) -> ::core::primitive::usize {
                 let constants = #system.constants.map(<S as __guen::Lift<::core::primitive::f64>>::lift);
                 let hoisted = #system.hoisted.map(<S as __guen::Lift<::core::primitive::f64>>::lift);
-                let (constants, hoisted) = (&__guen::checks::rounded(&constants), &__guen::checks::rounded(&hoisted));
+                let (constants, hoisted) = (&__guen::rounded(&constants), &__guen::PreparedValues::rounded_once(&hoisted));
                 __guen::checks::placed(values, &program::domain(constants, hoisted, t, state), #count_of_singularities)
             }
         }

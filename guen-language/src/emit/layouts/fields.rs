@@ -1,14 +1,14 @@
 //! The layout of a generated struct: the values, which are a flat list, in fields, arrays and structs.
 //!
 //! A name is the way to its value: `q[3]` is the entry 3 of the field `q`. Where a struct has only some entries of an array,
-//! as that of a scene may, each has a field of its own, `q_3`.
+//! as that of a scene may, each has a field of its own, `q_3`, or `q_3_` where another value is called so.
 
 mod long_arrays;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::{Ident, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 
 use crate::syntax::{Name, Path, Step};
 pub(in crate::emit) use long_arrays::{Entry, by_number};
@@ -80,6 +80,14 @@ impl Fields {
         }
         let mut fields = Vec::new();
         let mut accesses = vec![TokenStream::new(); names.len()];
+        let mut taken: BTreeSet<String> = groups.keys().cloned().collect();
+        let mut alone = |name: &Name| {
+            let mut own = name.ident.clone();
+            while !taken.insert(own.to_string()) {
+                own = format_ident!("{own}_", span = own.span());
+            }
+            own
+        };
         for name in order {
             let root = name.root();
             let group = &groups[&root.to_string()];
@@ -91,18 +99,18 @@ impl Fields {
                 }
                 None => {
                     for (_, place) in group {
-                        let own = &names[*place].ident;
+                        let own = alone(names[*place]);
                         accesses[*place] = quote!(#own);
-                        fields.push((own.clone(), Tree::Leaf(*place)));
+                        fields.push((own, Tree::Leaf(*place)));
                     }
                 }
             }
         }
         for (place, name) in names.iter().enumerate().filter(|(_, name)| incomplete.contains(&template(name)))
         {
-            let own = &name.ident;
+            let own = alone(name);
             accesses[place] = quote!(#own);
-            fields.push((own.clone(), Tree::Leaf(place)));
+            fields.push((own, Tree::Leaf(place)));
         }
         let names = names.iter().map(|name| name.text.clone()).collect();
         Fields { fields, names, accesses, functions: 0 }

@@ -7,8 +7,7 @@ use quote::{format_ident, quote};
 use super::fields::Fields;
 use super::supplied::Supplied;
 use crate::derive::{DerivedLevel, StateIndex, StatePart, Subject};
-use crate::model::{FormEntry, Model};
-use crate::names::RATE_SUFFIX;
+use crate::model::Model;
 use crate::syntax::{Declaration, Name};
 
 /// The path of the facade in the user's crate.
@@ -76,20 +75,9 @@ impl Layout {
 pub(in crate::emit) fn variable_name(model: &Model<'_>, place: StateIndex) -> Name {
     match model.part(place) {
         StatePart::Coordinate(i) => model.coordinates[i].name.clone(),
-        StatePart::Parameter(s) => form_name(&model.forms[s]),
+        StatePart::Parameter(s) => model.forms[s].own_name(),
         StatePart::State(k) => model.states[k].name.clone(),
     }
-}
-
-/// The name of a form: as written, with the component where a vector was written.
-pub(in crate::emit) fn form_name(form: &FormEntry<'_>) -> Name {
-    let suffixes = ["", "_x", "_y", "_z", RATE_SUFFIX].into_iter();
-    let mut names = suffixes.map(|suffix| match suffix {
-        "" => form.written.clone(),
-        _ => form.written.suffixed(suffix),
-    });
-    let own = names.find(|name| name.text == form.name);
-    own.unwrap_or_else(|| Name::new(format_ident!("{}", form.name, span = form.written.span())))
 }
 
 /// The name of a function that is carried.

@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 
 use crate::derive::{Subject, function, has_covector, known_combinations};
 use crate::emit::layouts::fields::{Fields, Tree};
-use crate::emit::layouts::layout::{Layout, form_name, given, inputs};
+use crate::emit::layouts::layout::{Layout, given, inputs};
 use crate::syntax::{Name, Step};
 
 pub(in crate::emit) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
@@ -244,7 +244,7 @@ fn of_instances(vectors: &[(Name, [TokenStream; 3])]) -> TokenStream {
 /// says `0 = 0` there is none. Left out if a reaction is not known.
 fn vectors(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<(Name, [TokenStream; 3])> {
     let known = &subject.level.selection.reactions;
-    let names: Vec<Name> = known.iter().map(|form| form_name(&subject.model.forms[*form])).collect();
+    let names: Vec<Name> = known.iter().map(|form| subject.model.forms[*form].own_name()).collect();
     let reactions = Fields::new(&names);
     let constraints = &subject.model.forms[layout.l..];
     let mut found: Vec<(Name, [TokenStream; 3])> = Vec::new();

@@ -7,7 +7,7 @@ use crate::derive::Subject;
 use crate::emit::contact_modes::modes;
 use crate::emit::documentation;
 use crate::emit::layouts::fields::{Entry, Fields, Tree};
-use crate::emit::layouts::layout::{Layout, carried_field, form_name, variable_name};
+use crate::emit::layouts::layout::{Layout, carried_field, variable_name};
 use crate::emit::layouts::parts::{self, Modules};
 use crate::emit::methods::integrated::units;
 use crate::model::{FormEntry, FormKind, OutputEntry, momentum, reaction, residual};
@@ -36,7 +36,7 @@ pub(in crate::emit) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> Toke
         let forms = indices.iter().map(|j| &model.forms[*j]);
         let described = forms.map(|form| {
             let fallback = format!("{what} `{}`.", form.name);
-            field(&form_name(form), form.docs, fallback, units.get(&unit_of(form)))
+            field(&form.own_name(), form.docs, fallback, units.get(&unit_of(form)))
         });
         described.collect()
     };
@@ -44,7 +44,7 @@ pub(in crate::emit) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> Toke
     let parameters: Vec<Field> = parameters
         .map(|form| {
             let fallback = format!("The quasi-velocity `{}`.", form.name);
-            field(&form_name(form), form.docs, fallback, units.get(&form.name))
+            field(&form.own_name(), form.docs, fallback, units.get(&form.name))
         })
         .collect();
     let whose = if layout.is_whole { "the system" } else { "the scene" };
@@ -109,7 +109,7 @@ pub(in crate::emit) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> Toke
     residuals.extend(selection.redundant.iter().map(|r| {
         let entry = &model.redundant[*r].entry;
         field(
-            &form_name(entry),
+            &entry.own_name(),
             entry.docs,
             format!("What is left of `{}`, which follows from others.", entry.name),
             units.get(&residual(&entry.name)),

@@ -1,4 +1,4 @@
-//! Counts the forms: as many as coordinates.
+//! Counts the coordinates and the forms: as many forms as coordinates, and one at least.
 
 use guen_symbolic::{ExprId, Form, Role, Workbench};
 
@@ -20,6 +20,12 @@ pub(super) fn check(
     place: proc_macro2::Span,
 ) {
     let n = velocities.len();
+    if n == 0 {
+        // The section is there, and it or its arrays are empty.
+        let fault = Fault::new(place, "the system has no coordinates");
+        eval.faults.report(fault.help("declare one at least, `coordinates { q }`"));
+        return;
+    }
     // Parameters without a velocity were reported already: without them the count may be right.
     if raw.len() <= n + idle {
         return;

@@ -9,7 +9,6 @@ use super::{Part, not_held, words};
 use crate::derive::selections::selection::StatePart;
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{ContactEntry, ContactState, Contacts, FormEntry, Model, SceneEntry};
-use crate::names::{RATE_SUFFIX, suffixed};
 use crate::syntax::{
     Clause, ClauseWord, Contact, Declaration, Definition, Docs, Equation, Expression, ExpressionKind,
     HeldContact, InMode, Item, Name, Number, Scene, Section, SlipDirection,
@@ -26,7 +25,7 @@ pub(super) fn in_mode(
     let whole = model.declaration;
     let l = model.mechanics.forms.degrees;
     let is_kept = |s: usize| part.kept.contains(&s);
-    let followers: Vec<Name> = (0..l).filter(|s| !is_kept(*s)).map(|s| name_of(&model.forms[s])).collect();
+    let followers: Vec<Name> = (0..l).filter(|s| !is_kept(*s)).map(|s| model.forms[s].own_name()).collect();
     let before = faults.count();
     let (tracks, tracked) = tracks(model, scene, part, faults);
     for name in &scene.held {
@@ -119,7 +118,9 @@ fn tracks(
                 StatePart::Parameter(s) if !part.kept.contains(&s) => {
                     tracked.push(model.forms[s].name.clone());
                 }
-                StatePart::Parameter(s) => tracks.push(part_of(name, &model.forms[s].name)),
+                StatePart::Parameter(s) => {
+                    tracks.push(name.part(&model.forms[s].name).unwrap_or_else(|| name.clone()))
+                }
                 _ => tracks.push(name.clone()),
             }
         }
@@ -175,7 +176,7 @@ fn chosen(model: &Model<'_>, part: &Part) -> Vec<Item> {
         let form = &model.forms[s];
         let definition = Definition {
             docs: Docs::default(),
-            name: name_of(form),
+            name: form.own_name(),
             value: call("dot", vec![value(form.written)]),
         };
         if part.kept.contains(&s) { parameters(definition) } else { Item::Let(definition) }
@@ -246,20 +247,6 @@ fn component(definition: &Definition, axis: &str, of: &Expression) -> Definition
 
 fn parameters(definition: Definition) -> Item {
     Item::Parameters(Section::new(Docs::default(), definition.name.span(), vec![definition]))
-}
-
-/// The name of a form: of the component, where a vector was written, and of the rate of a coordinate.
-pub(in crate::derive) fn name_of(form: &FormEntry<'_>) -> Name {
-    part_of(form.written, &form.name)
-}
-
-/// The name of a part of something that was written: `v_x[1]` of `v[1]`, `q_rate[0]` of `q[0]`.
-fn part_of(written: &Name, text: &str) -> Name {
-    let suffixes = ["_x", "_y", "_z", RATE_SUFFIX];
-    match suffixes.into_iter().find(|suffix| suffixed(&written.text, suffix) == text) {
-        Some(suffix) => written.suffixed(suffix),
-        None => written.clone(),
-    }
 }
 
 fn value(name: &Name) -> Expression {
