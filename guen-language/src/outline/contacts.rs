@@ -32,7 +32,7 @@ pub(super) fn items(
         match item {
             Item::Switches(section) => {
                 for switch in &section.entries {
-                    if switches.iter().all(|known| known.name.ident != switch.name.ident) {
+                    if switches.iter().all(|known| known.name.text != switch.name.text) {
                         let (name, value) = (names.take(&switch.name), value(moving));
                         switches.push(Switch { docs: switch.docs.clone(), name, value });
                     }
@@ -40,7 +40,7 @@ pub(super) fn items(
             }
             Item::Resets(section) => {
                 for reset in &section.entries {
-                    if resets.iter().all(|known| known.name.ident != reset.name.ident) {
+                    if resets.iter().all(|known| known.name.text != reset.name.text) {
                         let given = Assignment {
                             variable: value(moving),
                             equals: Span::call_site(),
@@ -56,7 +56,7 @@ pub(super) fn items(
                     let own = type_of_states(&contact.name);
                     let is_free = declaration.takes_type(&own).is_none()
                         && *types.entry((own.module, own.name)).or_insert(own.contact.clone()) == own.contact
-                        && contacts.iter().all(|known| known.name.ident != contact.name.ident);
+                        && contacts.iter().all(|known| known.name.text != contact.name.text);
                     if !is_free || contacts.len() == MAX_CONTACTS {
                         continue;
                     }

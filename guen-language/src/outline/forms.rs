@@ -7,7 +7,7 @@ use proc_macro2::Span;
 use super::expressions::{call, number, rate, value};
 use super::kinds::{Kind, Kinds};
 use super::{Names, push, section, unnamed};
-use crate::names::RATE_SUFFIX;
+use crate::names::{self, RATE_SUFFIX};
 use crate::syntax::{Declaration, Definition, Docs, Equation, Expression, Item, Name, Plain};
 
 pub(super) struct Forms {
@@ -39,10 +39,10 @@ struct Fields(BTreeSet<String>);
 impl Fields {
     /// Adds a scalar or the components of a vector, unless one is there.
     fn add(&mut self, name: &Name, kind: Kind) -> bool {
-        let name = name.ident.to_string();
+        let name = name.text.clone();
         let own = match components(kind) {
             1 => vec![name],
-            count => ["x", "y", "z"][..count].iter().map(|axis| format!("{name}_{axis}")).collect(),
+            count => ["_x", "_y", "_z"][..count].iter().map(|axis| names::suffixed(&name, axis)).collect(),
         };
         let is_new = own.iter().all(|field| !self.0.contains(field));
         self.0.extend(own);
@@ -66,7 +66,7 @@ fn of_forms(declaration: &Declaration, coordinates: usize, kinds: &Kinds) -> BTr
     let mut vectors = Vec::new();
     let mut count = 0;
     let mut add = |name: &Name, kind: Kind, is_constraint: bool| {
-        let name = name.ident.to_string();
+        let name = name.text.clone();
         if found.contains_key(&name) {
             return;
         }
@@ -130,7 +130,7 @@ impl Forms {
         let kinds = of_forms(declaration, coordinates.len(), kinds);
         // What a scene holds has to rest: its rate is a constraint, and these come last.
         let (last, first): (Vec<&Plain>, Vec<&Plain>) =
-            coordinates.iter().partition(|coordinate| held.contains(&coordinate.name.ident.to_string()));
+            coordinates.iter().partition(|coordinate| held.contains(&coordinate.name.text.clone()));
         let mut free =
             Free(first.into_iter().chain(last).map(|coordinate| coordinate.name.clone()).collect());
         let mut forms = Forms {
@@ -139,7 +139,7 @@ impl Forms {
             constraints: Vec::new(),
             resting: BTreeSet::new(),
             driven: None,
-            fields: Fields(coordinates.iter().map(|coordinate| coordinate.name.ident.to_string()).collect()),
+            fields: Fields(coordinates.iter().map(|coordinate| coordinate.name.text.clone()).collect()),
         };
         for item in &declaration.items {
             let Item::Parameters(section) = item else { continue };
@@ -156,7 +156,7 @@ impl Forms {
 
     /// Whether no field of the state and of the forms has this name.
     pub(super) fn is_free(&self, name: &Name) -> bool {
-        !self.fields.0.contains(&name.ident.to_string())
+        !self.fields.0.contains(&name.text.clone())
     }
 
     fn parameter(
@@ -166,12 +166,12 @@ impl Forms {
         free: &mut Free,
         names: &mut Names,
     ) {
-        let kind = kinds[&entry.name.ident.to_string()];
+        let kind = kinds[&entry.name.text.clone()];
         if !self.fields.add(&entry.name, kind) {
             return;
         }
         let Some(own) = free.take(kind) else { return };
-        if !held.contains(&entry.name.ident.to_string()) && self.driven.is_none() {
+        if !held.contains(&entry.name.text.clone()) && self.driven.is_none() {
             self.driven = own.first().cloned();
         }
         let value = of_kind(kind, &own, rate);
@@ -193,7 +193,7 @@ impl Forms {
                 Item::Constraints(section) | Item::Holonomic(section) => section.entries.as_slice(),
                 _ => &[],
             });
-        let needed: usize = entries.map(|entry| components(kinds[&entry.name.ident.to_string()])).sum();
+        let needed: usize = entries.map(|entry| components(kinds[&entry.name.text.clone()])).sum();
         let count = free.0.len().saturating_sub(needed);
         let given = declaration.items.iter().filter_map(|item| match item {
             Item::Parameters(section) => Some(&section.entries),
@@ -226,7 +226,7 @@ impl Forms {
         let mut equations = |entries: &[Equation], part: fn(&Name) -> Expression, free: &mut Free| {
             let mut found = Vec::new();
             for entry in entries {
-                let kind = kinds[&entry.name.ident.to_string()];
+                let kind = kinds[&entry.name.text.clone()];
                 if !fields.add(&entry.name, kind) {
                     continue;
                 }
@@ -272,5 +272,5 @@ fn held(declaration: &Declaration) -> BTreeSet<String> {
         Item::Scene(scene) => Some(scene),
         _ => None,
     });
-    scenes.flat_map(|scene| &scene.fixes).map(|fix| fix.name.ident.to_string()).collect()
+    scenes.flat_map(|scene| &scene.fixes).map(|fix| fix.name.text.clone()).collect()
 }

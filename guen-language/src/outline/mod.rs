@@ -87,7 +87,7 @@ impl Names {
 
 /// The entry of a name once: a second one was reported as a fault already.
 fn push<T>(entries: &mut Vec<T>, name: &Name, of: impl Fn(&T) -> &Name, new: impl FnOnce() -> T) {
-    if entries.iter().all(|known| of(known).ident != name.ident) {
+    if entries.iter().all(|known| of(known).text != name.text) {
         entries.push(new());
     }
 }

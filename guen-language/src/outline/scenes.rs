@@ -30,7 +30,7 @@ pub(super) fn items(declaration: &Declaration, entries: &Entries, forms: &Forms)
 fn sound(scene: &Scene, declaration: &Declaration, entries: &Entries, forms: &Forms) -> Scene {
     let mut fixes: Vec<Fix> = Vec::new();
     for Fix { name, .. } in &scene.fixes {
-        let is_it = |other: &&Name| other.ident == name.ident;
+        let is_it = |other: &&Name| other.text == name.text;
         let constant = entries.constants.iter().map(|constant| &constant.name).find(is_it);
         let resting = forms.coordinates.iter().map(|x| &x.name).filter(|x| forms.resting.contains(&x.text));
         let states = entries.states.iter().map(|state| &state.name);

@@ -1,7 +1,7 @@
 //! Absolute values: at a point modulo p they are one of a number and its opposite, and in a state the other.
 
-use crate::common::{derived, evaluated};
-use guen_language::derive::function;
+use crate::common::{derived, derived_without, evaluated};
+use guen_language::derive::{Derived, function};
 use guen_symbolic::SymbolId;
 
 #[test]
@@ -108,5 +108,71 @@ fn energies_and_constraints_for_one_sign_of_a_constant_are_accepted() {
         text("1", "constraints { c: (abs(a) - a)*dot(x) = dot(y); }"),
     ] {
         derived(&text, |derived| assert_eq!(derived.system.derivation.closure.growth.len(), 1, "{text}"));
+    }
+}
+
+/// Roots of squares are one of a number and its opposite, too, though nothing in them is an absolute value: near the rest position they are
+/// one, and far away the other.
+#[test]
+fn roots_of_squares_keep_their_signs() {
+    let half = |q: f64| (q / 2.0).cos();
+    let loads: [(&str, &dyn Fn(f64) -> f64); 16] = [
+        ("sqrt(cos(q)^2) + cos(q)", &|q| q.cos().abs() + q.cos()),
+        ("sqrt(1 - sin(q)^2) + cos(q)", &|q| q.cos().abs() + q.cos()),
+        ("(cos(q)^2)^(3/2) + cos(q)^3", &|q| q.cos().abs().powi(3) + q.cos().powi(3)),
+        ("sqrt(2 + 2*cos(q)) + 2*cos(q/2)", &|q| 2.0 * half(q).abs() + 2.0 * half(q)),
+        ("norm(vec(cos(q) - 1, sin(q), 0)) + 2*sin(q/2)", &|q| {
+            2.0 * (q / 2.0).sin().abs() + 2.0 * (q / 2.0).sin()
+        }),
+        ("sqrt(1 + sin(2*q)) - cos(q)", &|q| (q.sin() + q.cos()).abs() - q.cos()),
+        ("sqrt((q - 3)^2) + q", &|q| (q - 3.0).abs() + q),
+        ("sqrt((q + 1000)^2) + q", &|q| (q + 1000.0).abs() + q),
+        ("((q - 2)^4)^(1/4) + q", &|q| (q - 2.0).abs() + q),
+        ("sqrt(q^2*p^2) + q*p", &|q| (0.3 * q).abs() + 0.3 * q),
+        // A root that is a product with another root.
+        ("sqrt((q - 3)^2*(1 + q^2)) + q*sqrt(1 + q^2)", &|q| ((q - 3.0).abs() + q) * (1.0 + q * q).sqrt()),
+        ("sqrt((m - 7)^2*(1 + q^2)) + m*sqrt(1 + q^2)", &|q| 7.0 * (1.0 + q * q).sqrt()),
+        ("sqrt(tanh(q)^2) + tanh(q)", &|q| q.tanh().abs() + q.tanh()),
+        ("sqrt(cosh(q)^2 - 1) - sinh(q)", &|q| q.sinh().abs() - q.sinh()),
+        ("sqrt((exp(q) - 50)^2) + exp(q)", &|q| (q.exp() - 50.0).abs() + q.exp()),
+        ("unit(vec(tanh(q), 0, 0)).x", &f64::signum),
+    ];
+    for (load, expected) in loads {
+        let text = format!(
+            "pub system Bar {{
+                constants {{ m > 0, l > 0, I > 0 }}
+                coordinates {{ q, p }}
+                let R = rot_z(q);
+                bodies {{
+                    bar {{ mass: m, inertia: diag(I, I, I), center: R*vec(l, 0, 0), orientation: R }}
+                    end {{ mass: m, inertia: diag(I, I, I), center: vec(0, 0, 0), orientation: rot_x(p) }}
+                }}
+                parameters {{ w = dot(q); v = dot(p); }}
+                forces {{ {load} along w; }}
+            }}"
+        );
+        let compare = |derived: &Derived<'_>| {
+            let graph = &derived.model.bench.graph;
+            for at in [0.7, -0.7, 2.9, -2.2, 5.1, -1500.3] {
+                let value = |symbol: SymbolId| match graph.symbol_info(symbol).name.as_str() {
+                    "m" => 1.3,
+                    "l" => 0.7,
+                    "I" => 0.2,
+                    "q" => at,
+                    _ => 0.3,
+                };
+                let rate = evaluated(&derived.system, function::RHS, value).unwrap()[2];
+                let expected = expected(at) / (0.2 + 1.3 * 0.7 * 0.7);
+                if expected.is_finite() {
+                    let error = (rate - expected).abs();
+                    assert!(
+                        error < 1e-10 * expected.abs().max(1.0),
+                        "{load} at {at}: {rate}, not {expected}"
+                    );
+                }
+            }
+        };
+        derived(&text, compare);
+        derived_without(&text, |name| name != "bodies", compare);
     }
 }

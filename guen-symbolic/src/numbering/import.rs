@@ -27,9 +27,7 @@ impl Numbering {
     fn numbered(&mut self, bench: &mut Workbench, e: ExprId) -> Num {
         let roles = bench.graph.roles(e);
         let constant = roles.is_constant();
-        let on_manifold = self.point.1;
-        let signs = bench.zero.has_signs(&bench.graph, e)
-            || on_manifold && bench.zero.has_roots_of_squares(&bench.graph, e);
+        let signs = bench.zero.has_signs(&bench.graph, e);
         let moves = roles.meets(MOVING);
         let residue = if moves || signs { None } else { self.at_point(bench, e) };
         if let Some(residue) = residue {

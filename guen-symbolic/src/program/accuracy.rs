@@ -123,24 +123,31 @@ impl Arithmetic for Running {
 }
 
 /// A point: a number for every symbol.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 pub(super) struct Point {
     seed: u64,
     /// A symbol that is moved from its draw.
     moved: Option<(SymbolId, f64)>,
     /// Whether constants of which no sign is known have either.
     has_all_signs: bool,
+    /// The size of what has no sign, in units of that of other points.
+    size: f64,
 }
 
 impl Point {
     /// The point of a number, at which all constants are positive that may be.
     fn drawn(seed: u64) -> Self {
-        Point { seed, moved: None, has_all_signs: false }
+        Point { seed, moved: None, has_all_signs: false, size: 1.0 }
     }
 
     /// The point of a number, at which everything may be that is not excluded.
     pub(super) fn anywhere(seed: u64) -> Self {
         Point { has_all_signs: true, ..Self::drawn(seed) }
+    }
+
+    /// A point as [`Point::anywhere`], at which symbols without a sign are so many times as large.
+    pub(super) fn far(seed: u64, size: f64) -> Self {
+        Point { size, ..Self::anywhere(seed) }
     }
 
     pub(super) fn value(&self, graph: &Graph, symbol: SymbolId) -> f64 {
@@ -158,7 +165,7 @@ impl Point {
             Bound::Negative | Bound::NonPositive => -0.3 - 1.5 * part,
             // What a bound promises must not change which program is taken.
             _ if info.role == Role::Constant && !self.has_all_signs => 0.3 + 1.5 * part,
-            Bound::Free | Bound::NonZero => 3.0 * part - 1.5,
+            Bound::Free | Bound::NonZero => self.size * (3.0 * part - 1.5),
         }
     }
 }

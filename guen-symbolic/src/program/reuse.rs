@@ -27,6 +27,12 @@ const LONG_POINTS: usize = 2;
 const NEAR: f64 = 1e-7;
 /// The relative difference up to which values are equal in 237 bits.
 const EQUAL: f64 = 1e-55;
+/// Sizes of coordinates at further points in 237 bits where roots occur, in units of those at others, and the number of points of each:
+/// `sqrt((q - 3)^2)` is `3 - q` wherever `q` is small, and `sqrt(cos(q)^2)` is `cos(q)` within a quarter turn.
+const FAR_SIZES: [f64; 5] = [2.0, 5.0, 20.0, 1e3, 1e6];
+const POINTS_OF_SIZE: u64 = 4;
+/// The relative difference up to which values are equal there: sums of large terms cancel.
+const FAR_EQUAL: f64 = 1e-30;
 
 /// A way to compute a value by one multiplication, or by none.
 #[derive(Clone, Copy)]
@@ -118,13 +124,13 @@ impl Loads {
 
 impl Way {
     /// Whether the value is that product in 237 bits, wherever it is defined.
-    fn is_exact(&self, points: &[Vec<f256>]) -> bool {
+    fn is_exact(&self, points: &[(f64, Vec<f256>)]) -> bool {
         let (a, b) = self.factors;
-        let agrees = |values: &Vec<f256>| {
+        let agrees = |(equal, values): &(f64, Vec<f256>)| {
             let product = b.map_or(values[a.index()], |b| values[a.index()] * values[b.index()]);
             let product = if self.is_negative { -product } else { product };
             let own = values[self.value.index()];
-            own.is_finite().then(|| f256::abs(&(own - product)) <= f256::from(EQUAL) * f256::abs(&own))
+            own.is_finite().then(|| f256::abs(&(own - product)) <= f256::from(*equal) * f256::abs(&own))
         };
         let defined: Vec<bool> = points.iter().filter_map(agrees).collect();
         !defined.is_empty() && defined.into_iter().all(|agrees| agrees)
@@ -135,13 +141,14 @@ impl Way {
 struct Points {
     points: Vec<Point>,
     values: Vec<Vec<f64>>,
+    has_root: bool,
 }
 
 impl Points {
     fn new(graph: &Graph, code: &Code, prepared: &[ExprId], loads: &Loads) -> Self {
         let has_root = |i: &Instruction| matches!(i.operation, Operation::Call(Function::Root(_), _));
-        let wanted =
-            if loads.has_root || code.instructions.iter().any(has_root) { REUSE_POINTS } else { LONG_POINTS };
+        let has_root = loads.has_root || code.instructions.iter().any(has_root);
+        let wanted = if has_root { REUSE_POINTS } else { LONG_POINTS };
         let mut drawn: Vec<(usize, Point, Vec<f64>)> = Vec::new();
         for seed in 0..wanted as u64 {
             let point = Point::anywhere(seed);
@@ -151,14 +158,21 @@ impl Points {
         // Those at which most is defined come first.
         drawn.sort_by_key(|(undefined, ..)| *undefined);
         let (points, values) = drawn.into_iter().map(|(_, point, values)| (point, values)).unzip();
-        Points { points, values }
+        Points { points, values, has_root }
     }
 
-    /// The values in 237 bits at the first points.
-    fn long(&self, graph: &Graph, code: &Code, prepared: &[ExprId]) -> Vec<Vec<f256>> {
-        let at =
-            |point: &Point| values_at(code, prepared, graph, |symbol| f256::from(point.value(graph, symbol)));
-        self.points.iter().take(LONG_POINTS).map(at).collect()
+    /// The values in 237 bits at the first points, and at some that are far away where roots occur; with the relative difference up to which
+    /// they are equal.
+    fn long(&self, graph: &Graph, code: &Code, prepared: &[ExprId]) -> Vec<(f64, Vec<f256>)> {
+        let sizes = FAR_SIZES.iter().filter(|_| self.has_root);
+        let far = sizes.flat_map(|size| (0..POINTS_OF_SIZE).map(|seed| Point::far(seed, *size)));
+        let near = self.points.iter().take(LONG_POINTS).map(|point| (EQUAL, *point));
+        near.chain(far.map(|point| (FAR_EQUAL, point)))
+            .map(|(equal, point)| {
+                let value = |symbol| f256::from(point.value(graph, symbol));
+                (equal, values_at(code, prepared, graph, value))
+            })
+            .collect()
     }
 
     /// Whether a value is that product at all points where it is defined, and with which sign.

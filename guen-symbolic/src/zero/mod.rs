@@ -49,7 +49,7 @@ pub(crate) const REDRAWS: usize = 64;
 /// Draws in all for one expression.
 const DRAWS: usize = 512;
 /// Points with roots that suffice where all draws are used up.
-const FEWEST_POINTS_WITH_ROOTS: usize = 32;
+pub(crate) const FEWEST_POINTS_WITH_ROOTS: usize = 32;
 /// Points that keep their values; those beyond serve one question only.
 const KEPT_POINTS: usize = 128;
 /// Real points tried.
@@ -149,12 +149,15 @@ impl ZeroTest {
     }
 
     /// Whether expressions vanish wherever some equations hold, others than those of the manifold: at one point where those hold that can be
-    /// solved.
+    /// solved, and at several where signs may be right by chance.
     pub(crate) fn vanish_where(&mut self, g: &mut Graph, equations: &[ExprId], es: &[ExprId]) -> bool {
         let manifold = Manifold::new(g, &mut self.table, equations);
-        self.table.scan(g);
-        let point = new_sample(g, &self.table, Some(&manifold), 0);
-        point.is_some_and(|mut point| es.iter().all(|e| point.value(g, &self.table, *e) == Some(0)))
+        let has_signs = es.iter().any(|e| self.has_signs_or_roots(g, *e));
+        let points = if has_signs { FEWEST_POINTS_WITH_ROOTS } else { 1 };
+        (0..points).all(|number| {
+            let point = new_sample(g, &self.table, Some(&manifold), number);
+            point.is_some_and(|mut point| es.iter().all(|e| point.value(g, &self.table, *e) == Some(0)))
+        })
     }
 
     /// Whether a point shows that an expression does not vanish, on the manifold or anywhere: no more is asked where what is
@@ -262,24 +265,26 @@ impl ZeroTest {
         samples[point].value(g, table, e)
     }
 
-    /// Whether absolute values or signs occur: at one point they tell nothing of others.
+    /// Whether a residue has a sign by chance, so that one point tells nothing of others: where absolute values or signs occur, or roots of
+    /// squares.
     pub(crate) fn has_signs(&mut self, g: &Graph, e: ExprId) -> bool {
         self.table.scan(g);
-        self.table.flags[e.index()] & SIGN != 0
+        self.table.flags[e.index()] & SIGN != 0 || self.has_roots_of_squares(g, e)
     }
 
-    /// Whether absolute values, signs or roots occur: a residue has their sign by chance.
+    /// Whether absolute values, signs or roots occur. A root may be a product with something whose sign a residue has by chance, as
+    /// `sqrt(x^2 (1 + y^2))` is.
     pub(crate) fn has_signs_or_roots(&mut self, g: &Graph, e: ExprId) -> bool {
         self.table.scan(g);
         self.table.flags[e.index()] & (SIGN | ROOT) != 0
     }
 
-    /// Whether roots occur that on the manifold are something or its opposite, as `sqrt(x^2 + y^2)` is where `x^2 + y^2 = l^2`: at one
-    /// point they tell nothing of others. A root that a constraint has is what that says it is.
+    /// Whether roots occur that are something or its opposite, as `sqrt(tanh(x)^2)` is, and on a manifold `sqrt(x^2 + y^2)` where
+    /// `x^2 + y^2 = l^2`. A root that a constraint has is what that says it is.
     pub(crate) fn has_roots_of_squares(&mut self, g: &Graph, e: ExprId) -> bool {
         self.table.scan(g);
         let has_roots = |flags: &[table::Flags], e: ExprId| flags[e.index()] & ROOT != 0;
-        if self.manifold.is_none() || !has_roots(&self.table.flags, e) {
+        if !has_roots(&self.table.flags, e) {
             return false;
         }
         let (flags, known) = (&self.table.flags, &self.bound.roots_of_squares);
@@ -288,7 +293,9 @@ impl ZeroTest {
             let below = g.children(id).iter().any(|child| known.get(child) == Some(&true));
             let found = below
                 || match g.node(id) {
-                    Node::Function(Function::Root(2), radicand) => self.is_square(g, id, *radicand),
+                    Node::Function(Function::Root(q), radicand) if q % 2 == 0 => {
+                        self.is_square(g, id, *radicand)
+                    }
                     _ => false,
                 };
             self.bound.roots_of_squares.insert(id, found);
@@ -296,7 +303,8 @@ impl ZeroTest {
         self.bound.roots_of_squares.get(&e) == Some(&true)
     }
 
-    /// Whether a radicand is a square at all points of the manifold, though no constraint has its root.
+    /// Whether a radicand is a square at all points of the manifold, though no constraint has its root; without a manifold at all points, where
+    /// positive symbols are no squares.
     fn is_square(&mut self, g: &Graph, root: ExprId, radicand: ExprId) -> bool {
         /// Points at which another radicand is a square with a probability of 1 in 4096.
         const SQUARES: usize = 12;
@@ -305,7 +313,10 @@ impl ZeroTest {
         }
         let mut squares = 0;
         for number in 0..REDRAWS {
-            let sample = self.fresh(g, number, true);
+            let sample = match self.manifold {
+                Some(_) => self.fresh(g, number, true),
+                None => Some(Sample::without_bounds(number as u64)),
+            };
             let value = sample.and_then(|mut sample| sample.value(g, &self.table, radicand));
             match value.map(field::sqrt) {
                 Some(None) => return false,

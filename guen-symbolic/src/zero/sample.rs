@@ -25,6 +25,8 @@ pub(crate) struct Sample {
     seed: u64,
     /// Whether symbols without a promise are squares as well, so that more roots exist.
     squares: bool,
+    /// Whether symbols have any values, whatever is promised of them.
+    is_unbound: bool,
     generation: u32,
     /// Symbols with values other than their draw: those that a constraint determines.
     pub(crate) fixed: FastMap<SymbolId, u64>,
@@ -39,10 +41,15 @@ impl Sample {
         Sample { seed: mix(number), squares: number % 2 == 1, ..Sample::default() }
     }
 
+    /// A point at which positive symbols are no squares.
+    pub(super) fn without_bounds(number: u64) -> Self {
+        Sample { seed: mix(number), is_unbound: true, ..Sample::default() }
+    }
+
     /// Returns the point without values.
     pub(crate) fn fresh(&self) -> Self {
-        let Sample { seed, squares, ref fixed, .. } = *self;
-        Sample { seed, squares, fixed: fixed.clone(), ..Sample::default() }
+        let Sample { seed, squares, is_unbound, ref fixed, .. } = *self;
+        Sample { seed, squares, is_unbound, fixed: fixed.clone(), ..Sample::default() }
     }
 
     /// Returns the point with a symbol at zero, given all nodes that depend on it.
@@ -68,6 +75,7 @@ impl Sample {
         }
         let value = self.draw(OF_SYMBOL, symbol.index() as u64);
         match graph.symbol_info(symbol).bound {
+            _ if self.is_unbound => value,
             Bound::Free | Bound::NonZero if !self.squares => value,
             Bound::Free | Bound::NonZero => mul(value, value),
             Bound::Positive | Bound::NonNegative => mul(value, value),

@@ -54,7 +54,7 @@ fn contacts_where_the_chart_ends_and_the_program_supplies_a_force() {
     // With s = f^2/2 it is s'' = -2, from 2 to the stop at 1/2.
     let motion = stopped.simulate(&stopped::State { f: 2.0, p: 0.0 }, 0.0..1.3).unwrap();
     let [impact] = motion.transitions() else { panic!("{:?}", motion.transitions()) };
-    assert!((impact.time - 1.5_f64.sqrt()).abs() < 1e-9);
+    assert!((impact.t - 1.5_f64.sqrt()).abs() < 1e-9);
 }
 
 #[test]

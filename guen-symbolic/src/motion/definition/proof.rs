@@ -7,10 +7,12 @@ use crate::motion::fault::DerivationError;
 use crate::motion::{Equations, Frame, Mechanics};
 use crate::workbench::Workbench;
 use crate::zero::field::{add, mul, sub};
-use crate::zero::{POINTS_WITH_ROOTS, REDRAWS};
+use crate::zero::{FEWEST_POINTS_WITH_ROOTS, REDRAWS};
 
 /// Points of a proof.
 const PROOF_POINTS: usize = 3;
+/// Points of a proof where each may have a sign right by chance, and hardly any has all the roots.
+const PROOF_POINTS_WITH_SIGNS: usize = 12;
 
 /// The equations (2.7): their left sides at points, and where points do not decide, as expressions.
 pub(in crate::motion) struct Definition {
@@ -151,8 +153,12 @@ impl Definition {
         // Where no points of the constraints are found, any points do: equality everywhere is enough.
         let on_manifold = on_manifold && bench.zero.manifold_has_points();
         let all = [es, &system.expressions()].concat();
-        let signs = all.iter().any(|e| bench.zero.has_signs(&bench.graph, *e));
-        let wanted = if signs { POINTS_WITH_ROOTS } else { PROOF_POINTS };
+        let signs = all.iter().any(|e| bench.zero.has_signs_or_roots(&bench.graph, *e));
+        let (wanted, enough) = if signs {
+            (FEWEST_POINTS_WITH_ROOTS, PROOF_POINTS_WITH_SIGNS)
+        } else {
+            (PROOF_POINTS, PROOF_POINTS)
+        };
         let (mut seen, mut in_vain) = (0, 0);
         for number in 0.. {
             let Some(sample) = bench.zero.fresh(&bench.graph, number, on_manifold) else { break };
@@ -169,7 +175,7 @@ impl Definition {
                 break;
             }
         }
-        if seen >= PROOF_POINTS { Seen::Holds } else { Seen::Few }
+        if seen >= enough { Seen::Holds } else { Seen::Few }
     }
 
     /// Whether equations hold, if points decide that: residues may differ where functions do not.

@@ -17,7 +17,7 @@ use crate::motion::quasi_velocities::velocity_forms::VelocityPartials;
 use crate::motion::thresholds::RESTATED;
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
-use crate::zero::POINTS_WITH_ROOTS;
+use crate::zero::FEWEST_POINTS_WITH_ROOTS;
 
 impl Derivation {
     /// Takes the momenta and the reactions from the quadratic form of the bodies where they are long and that is half as long, and the
@@ -74,10 +74,10 @@ impl Derivation {
 fn agree(bench: &mut Workbench, own: &[ExprId], other: &[ExprId]) -> bool {
     const AGREEMENT_POINTS: usize = 4;
     let differences: Vec<ExprId> = own.iter().zip(other).map(|(a, b)| bench.graph.sub(*a, *b)).collect();
-    let signs = differences.iter().any(|e| bench.zero.has_signs(&bench.graph, *e));
+    let signs = differences.iter().any(|e| bench.zero.has_signs_or_roots(&bench.graph, *e));
     // Where no points of the constraints are found, any points do: equality everywhere is enough.
     let on_manifold = bench.zero.manifold_has_points();
-    (0..if signs { POINTS_WITH_ROOTS } else { AGREEMENT_POINTS }).all(|point| {
+    (0..if signs { FEWEST_POINTS_WITH_ROOTS } else { AGREEMENT_POINTS }).all(|point| {
         let residues = bench.zero.residues(&mut bench.graph, point, &differences, on_manifold);
         residues.is_some_and(|residues| residues.iter().all(|residue| *residue == 0))
     })
