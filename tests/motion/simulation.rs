@@ -271,6 +271,51 @@ fn constraints_on_positions_hold_to_rounding() {
     assert!(worst(&braked) < 1e-15 && worst(&sampled) < 1e-15);
 }
 
+mechanical_system! {
+    /// A body in water, whose drag changes its formula where it turns round.
+    system Dragged {
+        inputs { push }
+        coordinates { x }
+        parameters { v = dot(x); }
+        kinetic_energy = v^2/2;
+        forces { push - v*abs(v)/2 along v; }
+    }
+}
+
+/// A step that ends at a switch, or is tried again because of one, is not the controller's: it is asked at its own times, once each.
+#[test]
+fn a_held_controller_keeps_its_times_over_switches() {
+    let dragged = Dragged.prepare().unwrap();
+    let start = dragged::State { x: 0.0, v: 0.3 };
+    let push = |t: f64| dragged::Inputs { push: if t < 1.5 { -t - 0.5 } else { 4.0 } };
+    // The same, run by run.
+    let mut expected = start;
+    for k in 0..3 {
+        let t = f64::from(k);
+        let driven = dragged.driven(push(t));
+        expected = driven.simulation(&expected).tolerance(1e-12).run(t..t + 1.0).unwrap().end();
+    }
+    macro_rules! check {
+        ($($method:expr;)*) => {$(
+            let mut asked = Vec::new();
+            let run = dragged.simulation(&start).hold(1.0, |t, _| {
+                asked.push(t);
+                push(t)
+            });
+            let motion = run.method($method).run(0.0..3.0).unwrap();
+            assert_eq!(motion.statistics().work.switches, 2, "{}", stringify!($method));
+            let end = motion.end();
+            let error = f64::max((end.x - expected.x).abs(), (end.v - expected.v).abs());
+            assert!(error < 1e-7, "{}: {end:?} instead of {expected:?}", stringify!($method));
+            // Steps that were tried in vain are not kept.
+            assert!(motion.times().is_sorted_by(|a, b| a < b), "{:?}", motion.times().collect::<Vec<_>>());
+            drop(motion);
+            assert_eq!(asked, [0.0, 1.0, 2.0], "{}", stringify!($method));
+        )*};
+    }
+    check! { Dop853::new(1e-10, 1e-10); Tsit5::new(1e-9, 1e-9); Radau5::new(1e-9, 1e-9); }
+}
+
 #[test]
 fn memory_is_bounded() {
     let hoop = prepared().unwrap();

@@ -104,6 +104,13 @@ where
             reached: *start,
         }
     }
+
+    /// The samples go on: the controller is asked at its own times.
+    fn restart<'r>(&'r self, run: &mut Self::Run<'r>, start: &Checkpoint<R, N>) {
+        self.method.restart(&mut run.run, &Checkpoint { statistics: Statistics::default(), ..*start });
+        run.before = start.statistics;
+        run.reached = *start;
+    }
 }
 
 /// The system with these inputs held.

@@ -67,6 +67,16 @@ where
     fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
         Recorded { run: self.method.start(start), log: &self.log, last: None, state: PhantomData }
     }
+
+    /// A step that is not taken is not kept.
+    fn restart<'a>(&'a self, run: &mut Self::Run<'a>, start: &Checkpoint<R, N>) {
+        self.method.restart(&mut run.run, start);
+        run.last = None;
+        let steps = &mut self.log.borrow_mut().steps;
+        while steps.last().is_some_and(|step| (step.start - start.time).to_f64() == 0.0) {
+            steps.pop();
+        }
+    }
 }
 
 /// A run of the method.

@@ -106,7 +106,7 @@ where
             slides.map_or(Ok(()), |switch| Err(Cause::Sliding { found, switch }))
         };
         if core::mem::take(restarts) {
-            *run = method.start(&from);
+            method.restart(run, &from);
         } else if from.statistics.accepted == 0 && switches.begins_on_one() {
             slides(switches, &from, None)?;
         }
@@ -124,7 +124,8 @@ where
                     return Err(cause);
                 }
                 anyway = true;
-                *run = method.start(&Checkpoint { statistics: run.checkpoint().statistics, ..from });
+                let work = run.checkpoint().statistics;
+                method.restart(run, &Checkpoint { statistics: work, ..from });
                 continue;
             }
             let to = *run.checkpoint();
@@ -133,7 +134,7 @@ where
             if near.is_none() && !anyway && switches.past().is_none() && !switches.crosses(&values) {
                 near = switches.nearest(*system, (&from, &to), &values);
                 if near.is_some() {
-                    *run = method.start(&Checkpoint { statistics: to.statistics, ..from });
+                    method.restart(run, &Checkpoint { statistics: to.statistics, ..from });
                     continue;
                 }
             }
@@ -149,7 +150,7 @@ where
                     *restarts = true;
                     return Ok(());
                 }
-                Step::Over => *run = method.start(&Checkpoint { statistics: to.statistics, ..from }),
+                Step::Over => method.restart(run, &Checkpoint { statistics: to.statistics, ..from }),
             }
         }
         Err(Cause::StepUnderflow)

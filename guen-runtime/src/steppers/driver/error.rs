@@ -221,9 +221,9 @@ impl Cause {
             Self::Positions => f.write_str("the constraints on positions cannot be restored"),
             Self::Contacts => write!(f, "{}", PositionsError::Contacts),
             Self::Setting(Setting::Step) => f.write_str("the step is not a positive number"),
-            Self::Setting(Setting::Tolerance) => {
-                f.write_str("the tolerances are not nonnegative numbers with a positive sum")
-            }
+            Self::Setting(Setting::Tolerance) => f.write_str(
+                "the absolute tolerance is not a positive number, or the relative one not a nonnegative one",
+            ),
             Self::NoConvergence => f.write_str("the equations of an implicit step cannot be solved"),
             Self::Energy { found, change, limit } => {
                 write!(

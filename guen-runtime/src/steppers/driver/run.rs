@@ -81,6 +81,12 @@ pub trait Method<R: Real, S: ?Sized, const N: usize> {
 
     /// Begins a run at this time and state, before any work. Nothing is checked yet.
     fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_>;
+
+    /// Lets a run begin anew where it stood before a step that is not taken, or where the rates jump. A method that has more than a run, as
+    /// samples of a controller, keeps it.
+    fn restart<'a>(&'a self, run: &mut Self::Run<'a>, start: &Checkpoint<R, N>) {
+        *run = self.start(start);
+    }
 }
 
 impl<R: Real, S: ?Sized, M: Method<R, S, N>, const N: usize> Method<R, S, N> for &M {
@@ -91,6 +97,10 @@ impl<R: Real, S: ?Sized, M: Method<R, S, N>, const N: usize> Method<R, S, N> for
 
     fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
         (**self).start(start)
+    }
+
+    fn restart<'a>(&'a self, run: &mut Self::Run<'a>, start: &Checkpoint<R, N>) {
+        (**self).restart(run, start);
     }
 }
 
