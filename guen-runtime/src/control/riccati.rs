@@ -310,12 +310,18 @@ fn doubled<R: Ordered, const N: usize>(pencil: Pencil<R, N>) -> Option<[[R; N]; 
     None
 }
 
-/// `sum_k (D^T)^k W D^k`, if it converges: where the matrix `D` is stable.
+/// `sum_k (D^T)^k W D^k`, if it converges: where the matrix `D` is stable. None also where the powers become small only when so many steps
+/// are multiplied that rounding alone could have done it, as those of a rotation do.
 fn summed<R: Ordered, const N: usize>(step: [[R; N]; N], weight: [[R; N]; N]) -> Option<[[R; N]; N]> {
+    /// The relative error of a power by rounding from which on its size says nothing.
+    const MOST_ROUNDING: f64 = 1.0 / 32.0;
     let (mut power, mut sum) = (step, symmetric(&weight));
-    for _ in 0..MOST_DOUBLINGS {
+    let rounding = R::epsilon().to_f64() * N as f64;
+    let mut error = rounding;
+    while error < MOST_ROUNDING {
         sum = plus(&sum, &symmetric(&product(&transpose(&power), &product(&sum, &power))));
         power = product(&power, &power);
+        error = 2.0 * error + rounding;
         let left = scale(&power);
         if !left.is_finite() {
             return None;

@@ -122,7 +122,7 @@ pub fn named<const N: usize, const M: usize>(
 /// - What is fixed or drifts stays as in the guess. Directions that no rate depends on stay as well; if any are left
 ///   at the end, there is a family of solutions, and that is reported: a car's steady turns have a speed and a radius,
 ///   and both have to be chosen.
-/// - Steps are halved as long as they do not make the rates smaller. A direction counts as one that the rates depend
+/// - Steps are halved as long as they do not make the rates smaller, and made as long as they do. A direction counts as one that the rates depend
 ///   on if more than `1e-9` of the longest derivative is left of its own beside the others.
 ///
 /// ```
@@ -162,7 +162,7 @@ where
     const NEWTON_STEPS: usize = 100;
     const STEP_HALVINGS: usize = 30;
     const INDEPENDENT: f64 = 1e-9;
-    /// Roundings of the largest rate, in units of what the linearisation makes of the state, that count as none.
+    /// Roundings of the largest rate, in units of one or of what the linearisation makes of the state, that count as none.
     const RATE_ROUNDINGS: f64 = 1e3;
 
     let open = |j: usize| {
@@ -178,7 +178,6 @@ where
         }
         rates
     };
-    let precision = R::epsilon().sqrt().to_f64();
     let (mut s, mut u) = (*state, *inputs);
     let mut r = rates(&s, &u);
     for _ in 0..NEWTON_STEPS {
@@ -212,8 +211,6 @@ where
             }
             y[k] = rest / entry(k);
         }
-        let length_of_step = largest(y[..rank].iter().copied());
-        let extent = 1.0 + largest(s.iter().chain(&u).copied());
         let moved = |factor: R| {
             let (mut s, mut u) = (s, u);
             for (j, change) in order.iter().zip(&y).take(rank) {
@@ -222,22 +219,6 @@ where
             }
             (s, u)
         };
-        if length_of_step <= precision * extent {
-            // The last step of Newton's method squares what is left.
-            (s, u) = moved(R::one());
-            let rest = rates(&s, &u);
-            let residual = largest(rest.iter().copied());
-            if residual.is_nan() {
-                return Err(SteadyError::NotFinite);
-            }
-            if residual > RATE_ROUNDINGS * precision * precision * (scale * extent).max(1.0) {
-                return Err(SteadyError::NotFound { residual });
-            }
-            if unknowns > rank {
-                return Err(SteadyError::Family { dimension: unknowns - rank });
-            }
-            return Ok((s, u));
-        }
         let mut factor = R::one();
         let mut accepted = None;
         for _ in 0..STEP_HALVINGS {
@@ -250,8 +231,21 @@ where
             }
             factor *= R::from_ratio(1, 2);
         }
-        let Some(next) = accepted else { break };
-        (s, u, r) = next;
+        match accepted {
+            Some(next) => (s, u, r) = next,
+            // No step makes the rates smaller: what is left of them is rounding, or no zero is near.
+            None => {
+                let extent = 1.0 + largest(s.iter().chain(&u).copied());
+                let residual = largest(r.iter().copied());
+                if residual > RATE_ROUNDINGS * R::epsilon().to_f64() * (scale * extent).max(1.0) {
+                    return Err(SteadyError::NotFound { residual });
+                }
+                return match unknowns - rank {
+                    0 => Ok((s, u)),
+                    dimension => Err(SteadyError::Family { dimension }),
+                };
+            }
+        }
     }
     Err(SteadyError::NotFound { residual: largest(r.iter().copied()) })
 }

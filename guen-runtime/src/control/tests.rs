@@ -6,7 +6,7 @@ use std::vec::Vec;
 
 use super::*;
 use crate::linear_algebra::dense::{apply, dot, largest, product, solve, transpose, unit};
-use crate::system::derivatives::linearization::Linearization;
+use crate::system::derivatives::linearization::{Linearizable, Linearization};
 
 type Square<const N: usize> = [[f64; N]; N];
 
@@ -143,6 +143,44 @@ fn what_no_gain_stabilises_is_an_error() {
     // A nonholonomic robot at rest: sideways nothing moves.
     let sideways = Linearization { a: [[0.0; 2]; 2], b: [[1.0], [0.0]] };
     assert_eq!(lqr(&sideways, &unit(), &[[1.0]]), Err(RiccatiError::NotStabilizable));
+    // Oscillators without weight neither decay nor grow, beside what does decay, too.
+    for frequency in [0.3, 1.0, 7.0, 1e4] {
+        let swinging = Linearization { a: [[0.0, frequency], [-frequency, 0.0]], b: [[0.0], [1.0]] };
+        assert_eq!(lqr(&swinging, &diagonal([0.0; 2]), &[[1.0]]), Err(RiccatiError::NotStabilizable));
+        let turning = c2d(&swinging, 0.1);
+        assert_eq!(dlqr(&turning, &diagonal([0.0; 2]), &[[1.0]]), Err(RiccatiError::NotStabilizable));
+    }
+    let beside =
+        Linearization { a: [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1e-3]], b: [[0.0], [1.0], [1.0]] };
+    assert_eq!(lqr(&beside, &diagonal([0.0, 0.0, 1.0]), &[[1.0]]), Err(RiccatiError::NotStabilizable));
+}
+
+/// A charge on a spring beside a wall that attracts it, `x'' = d^3/(8 (d - x)^2) - x`, in lengths of `d`: at rest in `x = (3 - sqrt 5) d/4`.
+struct Attracted(f64);
+
+impl Linearizable<f64, 2, 1> for Attracted {
+    fn rates(&self, _t: f64, [x, v]: &[f64; 2], [u]: &[f64; 1]) -> [f64; 2] {
+        let Attracted(d) = *self;
+        [*v, d * d * d / (8.0 * (d - x) * (d - x)) - x + u]
+    }
+
+    fn linearization(&self, _t: f64, [x, _]: &[f64; 2], _: &[f64; 1]) -> Linearization<f64, 2, 1> {
+        let Attracted(d) = *self;
+        let slope = d * d * d / (4.0 * (d - x).powi(3)) - 1.0;
+        Linearization { a: [[0.0, 1.0], [slope, 0.0]], b: [[0.0], [1.0]] }
+    }
+}
+
+#[test]
+fn equilibria_have_all_digits_in_small_units_and_in_large_ones() {
+    let still = SteadyMotion { drifting: [false; 2], fixed_states: [false; 2], fixed_inputs: [true] };
+    for d in [1e-12, 1e-9, 1e-6, 1.0, 1e6] {
+        for guess in [0.0, 0.1, 0.3] {
+            let ([x, v], _) = steady(&Attracted(d), 0.0, &[guess * d, 0.5 * d], &[0.0], &still).unwrap();
+            let expected = (3.0 - 5.0_f64.sqrt()) / 4.0;
+            assert!((x / d - expected).abs() < 1e-12 && v == 0.0, "{} at {d:e}", x / d);
+        }
+    }
 }
 
 #[test]
