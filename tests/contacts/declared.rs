@@ -233,3 +233,38 @@ mechanical_system! {
         scene Held { modes { floor[0]: closed; floor[1]: open; a.c: closed; } track x, v[1]; provide reactions; }
     }
 }
+
+mechanical_system! {
+    /// A ball above a table that shakes many times while the ball falls, which takes one step of a method of high order.
+    pub system Shaken {
+        constants { m > 0 = 1, g = 9.81, A = 1/1000, om = 200, e in 0..1 = 4/5 }
+        coordinates { z }
+        parameters { v = dot(z); }
+        particles { m at vec(0, z); }
+        gravity = vec(0, -g);
+        contacts { table: gap = z - A*sin(om*t), restitution = e; }
+    }
+}
+
+mechanical_system! {
+    /// A block on a rough floor that shakes while the block slides.
+    pub system Sliding {
+        constants { m > 0 = 1, g = 9.81, A = 1/10, om = 20, mu = 1/5, T > 0 = 1 }
+        coordinates { x }
+        parameters { u = dot(x); }
+        kinetic_energy = m/2*u^2;
+        contacts { floor: grip = u - A*om/T*cos(om*t/T), limit = mu*m*g/T^2; }
+    }
+}
+
+mechanical_system! {
+    /// A body that nothing moves, with a clock.
+    pub system Ticking {
+        constants { om = 100 }
+        coordinates { x }
+        states { dot(n) = 0; }
+        parameters { v = dot(x); }
+        kinetic_energy = v^2/2;
+        resets { tick: sin(om*t) rises, n = n + 1; }
+    }
+}

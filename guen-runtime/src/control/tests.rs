@@ -147,7 +147,7 @@ fn what_no_gain_stabilises_is_an_error() {
     for frequency in [0.3, 1.0, 7.0, 1e4] {
         let swinging = Linearization { a: [[0.0, frequency], [-frequency, 0.0]], b: [[0.0], [1.0]] };
         assert_eq!(lqr(&swinging, &diagonal([0.0; 2]), &[[1.0]]), Err(RiccatiError::NotStabilizable));
-        let turning = c2d(&swinging, 0.1);
+        let turning = c2d(&swinging, 0.1).unwrap();
         assert_eq!(dlqr(&turning, &diagonal([0.0; 2]), &[[1.0]]), Err(RiccatiError::NotStabilizable));
     }
     let beside =

@@ -33,6 +33,11 @@ const PART_HALVINGS: u32 = 50;
 const AGAIN: f64 = 1e-7;
 /// The parts of a step at whose ends functions are looked at.
 const PARTS: u32 = 4;
+/// The most looks at functions that swing within a step.
+const MOST_LOOKS: u32 = 2048;
+/// The part of its least value by which a function may be missed between two looks, and the part of its largest one that counts as none.
+const UNSEEN: f64 = 0.25;
+const NEGLIGIBLE: f64 = 1e-7;
 /// The number of times that the first part of the first step of a mode is divided by eight.
 const FIRST_DIVISIONS: u32 = 10;
 /// The part of the time itself after its beginning before which nothing is looked at: the time at which a mode begins is known no better.
@@ -64,34 +69,80 @@ where
 {
     /// The first falling zero, or touch of zero.
     pub(in crate::hybrid) fn first(&mut self) -> Option<Found> {
-        let from = self.from;
-        let mut before = self.look(from);
-        let divisions = if self.first { FIRST_DIVISIONS } else { 0 };
-        let (start, end) = (self.start, self.end);
+        let (from, start, end) = (self.from, self.start, self.end);
         let part = (end - start) / f64::from(PARTS);
-        let inner = (0..divisions).map(|k| start + part * libm::exp2(-3.0 * f64::from(divisions - k)));
-        let outer = (1..=PARTS).map(|k| if k == PARTS { end } else { start + part * f64::from(k) });
-        for t in inner.chain(outer) {
-            if t <= from || t < end && t - start <= SETTLING * start.abs() {
+        let mut looks = [self.look(start); PARTS as usize + 1];
+        for (k, look) in (0..=PARTS).zip(&mut looks).skip(1) {
+            *look = self.look(if k == PARTS { end } else { start + part * f64::from(k) });
+        }
+        let mut swings = [false; PARTS as usize];
+        for (k, three) in looks.windows(3).enumerate() {
+            if !is_resolved([&three[0], &three[1], &three[2]]) {
+                swings[k..k + 2].fill(true);
+            }
+        }
+        let mut before = if from == start { looks[0] } else { self.look(from) };
+        let divisions = if self.first { FIRST_DIVISIONS } else { 0 };
+        for k in 0..divisions {
+            let t = start + part * libm::exp2(-3.0 * f64::from(divisions - k));
+            if t <= from || t - start <= SETTLING * start.abs() {
                 continue;
             }
             let after = self.look(t);
-            let mut earliest: Option<Found> = None;
-            for function in Function::all(C, S) {
-                if let Some(found) = self.within(function, &before, &after)
-                    // A touch from which the search goes on is not found again.
-                    && !(found.does == Does::Touches && found.t <= from + AGAIN * (end - start))
-                    && earliest.is_none_or(|sooner| found.t < sooner.t)
-                {
-                    earliest = Some(found);
-                }
-            }
-            if earliest.is_some() {
-                return earliest;
+            let found = self.earliest(&before, &after);
+            if found.is_some() {
+                return found;
             }
             before = after;
         }
+        let mut left = MOST_LOOKS;
+        for (after, swings) in looks.iter().skip(1).zip(swings) {
+            let t = after.t;
+            if t <= from || t < end && t - start <= SETTLING * start.abs() {
+                continue;
+            }
+            let found = match swings {
+                true => self.between(&before, after, &mut left),
+                false => self.earliest(&before, after),
+            };
+            if found.is_some() {
+                return found;
+            }
+            before = *after;
+        }
         None
+    }
+
+    /// The first event between two looks, in halves as long as a function swings between them: the motion may be simple, and take long steps,
+    /// while a floor shakes. So many looks are left.
+    fn between(&mut self, before: &Look<C, S>, after: &Look<C, S>, left: &mut u32) -> Option<Found> {
+        let middle = before.t + 0.5 * (after.t - before.t);
+        if *left == 0 || !(before.t < middle && middle < after.t) {
+            return self.earliest(before, after);
+        }
+        *left -= 1;
+        let middle = self.look(middle);
+        if is_resolved([before, &middle, after]) {
+            return self.earliest(before, after);
+        }
+        let first = self.between(before, &middle, left);
+        if first.is_some() { first } else { self.between(&middle, after, left) }
+    }
+
+    /// The first event that the values and rates of two looks show.
+    fn earliest(&mut self, before: &Look<C, S>, after: &Look<C, S>) -> Option<Found> {
+        let again = self.from + AGAIN * (self.end - self.start);
+        let mut earliest: Option<Found> = None;
+        for function in Function::all(C, S) {
+            if let Some(found) = self.within(function, before, after)
+                // A touch from which the search goes on is not found again.
+                && !(found.does == Does::Touches && found.t <= again)
+                && earliest.is_none_or(|sooner| found.t < sooner.t)
+            {
+                earliest = Some(found);
+            }
+        }
+        earliest
     }
 
     fn look(&mut self, t: f64) -> Look<C, S> {
@@ -279,6 +330,25 @@ where
         let state = (self.at)(t);
         self.in_mode.system.conditions(t, &state, &self.in_mode.switches).when[c] > 0.0
     }
+}
+
+/// Whether the second of three looks, at equal distances, is what the cubic polynomial through the others says, as far as zeros between
+/// them are concerned.
+fn is_resolved<const C: usize, const S: usize>([first, middle, last]: [&Look<C, S>; 3]) -> bool {
+    let length = last.t - first.t;
+    Function::all(C, S).filter(|function| !matches!(function, Function::Regularity | Function::Shared)).all(
+        |function| {
+            let of =
+                |look: &Look<C, S>| look.values.get(function).map(|value| (value.value, value.tangent[0]));
+            let (Some((a, falls)), Some((m, _)), Some((b, rises))) = (of(first), of(middle), of(last)) else {
+                return true;
+            };
+            let missed = (m - 0.5 * (a + b) - length * (falls - rises) / 8.0).abs();
+            let least = a.abs().min(m.abs()).min(b.abs());
+            let largest = a.abs().max(m.abs()).max(b.abs());
+            !(missed > UNSEEN * least && missed > NEGLIGIBLE * largest)
+        },
+    )
 }
 
 /// The spacing of times at a time.

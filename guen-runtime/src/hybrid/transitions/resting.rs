@@ -32,7 +32,7 @@ impl<const C: usize> Resting<C> {
     /// Records an impact with the largest speed of closing. Returns the ratio of the last two speeds, if the last three ratios agree and
     /// are below one.
     pub(super) fn record(&mut self, t: f64, speed: f64, meets: &[bool; C]) -> Option<f64> {
-        /// The relative difference of ratios that agree.
+        /// The difference of ratios that agree, relative to them, and to what they are below one.
         const AGREEMENT: f64 = 1e-2;
 
         self.took_part = filled(|c| self.took_part[c] || meets[c]);
@@ -45,9 +45,9 @@ impl<const C: usize> Resting<C> {
         }
         let [a, b, c, d] = self.speeds;
         let ratios = [a / b, b / c, c / d];
-        let agree = |x: f64, y: f64| (x - y).abs() <= AGREEMENT * y;
+        let agree = |x: f64, y: f64| (x - y).abs() <= AGREEMENT * f64::min(y, 1.0 - y);
         let [first, second, third] = ratios;
-        (first < 1.0 - AGREEMENT && agree(first, second) && agree(second, third)).then_some(first)
+        (first < 1.0 && agree(first, second) && agree(second, third)).then_some(first)
     }
 
     /// The rebound below which a sequence is closed, with the acceleration `back` towards the contact. What is left out is wrong by the
@@ -234,6 +234,9 @@ mod tests {
         assert_eq!(recorded(&[9.0, 4.0, 2.0, 1.0]), None);
         assert_eq!(recorded(&[8.0, 4.5, 2.0, 1.0]), None);
         assert_eq!(recorded(&[8.0, 4.0, 2.0, 1.1]), None);
+        // Near one ratios agree by what they are below it.
+        assert!(recorded(&[1.0, 0.995, 0.990_025, 0.985_074_875]).is_some());
+        assert_eq!(recorded(&[1.0, 0.995, 0.990_3, 0.985_3]), None);
         // An elastic contact never rests, nor one that is driven.
         assert_eq!(recorded(&[1.0; 4]), None);
         assert_eq!(recorded(&[1.0, 2.0, 4.0, 8.0]), None);
