@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | what is a number? | [`Real`], [`Ordered`], [`Dual`], [`RunningError`]; [`Lift`] embeds a base real; [`select`], [`minimum`], [`maximum`] choose |
 //! | what is integrated? | [`System`], [`Monitored`], [`Differentiable`], [`TaylorSeries`], [`from_fn`], [`generic`] |
+//! | what does a guard ask it? | [`Guarded`], with [`Invariants`] and [`CheckCosts`] |
 //! | which functions does it have? | [`WithFunctions`]: [`Approx13`], [`Approx7`], [`Fused`], [`Functions`] of your own |
 //! | which functions does the program supply? | [`Smooth`], [`Table`], [`Grid`] |
 //! | over which reals? | [`WithScalar`]: a system made anew over each |
@@ -99,6 +100,7 @@ pub use system::derivatives::linearization::{
     Liftable, Linearizable, Linearization, OutputLinearization, linearized, moving, seeded, slopes, tangents,
 };
 pub use system::derivatives::series::{Coefficients, Convolutions, DrivenSeries, TaylorSeries};
+pub use system::guarded::Guarded;
 #[doc(hidden)]
 pub use system::hints::Unprepared;
 pub use system::inputs::actuated::{Actuated, WithInputs};

@@ -8,7 +8,7 @@ use std::hint::black_box;
 use allocation_counter::measure;
 use guen::prelude::*;
 use guen::steppers::{Bounded, Direction, Event, Method, reversible};
-use guen::{Differentiable, Dual, TaylorSeries};
+use guen::{Differentiable, Dual, Guarded, TaylorSeries};
 
 hoop! { guen::mechanical_system; provide carried, taylor; scene Tilt { track theta; provide energy, taylor; } }
 robot! { guen::mechanical_system; provide taylor; }
@@ -67,8 +67,9 @@ where
     count(&format!("{name}, right-hand side"), || {
         black_box(system.rhs(0.0, black_box(start)));
         black_box(system.jacobian(0.0, black_box(start)));
-        black_box(system.conserved(0.0, black_box(start)));
-        black_box(system.condition(0.0, black_box(start)));
+        let guarded = system.guarded();
+        black_box(guarded.conserved(0.0, black_box(start)));
+        black_box(guarded.condition(0.0, black_box(start)));
     });
     count(&format!("{name}, control period"), || {
         for method in [Bounded::dop853(48), Bounded::tsit5(25)] {

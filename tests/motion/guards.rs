@@ -6,6 +6,7 @@
 use guen::prelude::*;
 
 use crate::simulation::{Circle, circle};
+use guen::Guarded;
 use guen::steppers::Method;
 
 hoop!(guen::mechanical_system);
@@ -251,13 +252,13 @@ fn a_condition_limit_is_watched() {
 #[test]
 fn looks_have_a_price() {
     let hoop = prepared();
-    let costs = System::<f64, 9>::check_costs(&hoop);
+    let costs = Guarded::<f64, 9>::check_costs(&hoop);
     // The edge is a sine; a right-hand side has two, and 24 operations.
     assert!(costs.singularities > 0.2 && costs.singularities < 3.0, "{costs:?}");
     assert!(f64::from(costs.all) > costs.singularities, "{costs:?}");
     // Without an edge there is nothing to ask for.
     let free = Free { m: 1.0 }.prepare().unwrap();
-    assert_eq!(System::<f64, 2>::check_costs(&free).singularities, 0.0);
+    assert_eq!(Guarded::<f64, 2>::check_costs(&free).singularities, 0.0);
 }
 
 guen::mechanical_system! {

@@ -112,6 +112,12 @@ impl System<f64, 2> for Swing {
         [v, -x]
     }
 
+    fn guarded(&self) -> impl guen::Guarded<f64, 2> {
+        self
+    }
+}
+
+impl guen::Guarded<f64, 2> for Swing {
     fn singularities(
         &self,
         _: guen::RunningError<f64>,

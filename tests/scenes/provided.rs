@@ -1,8 +1,7 @@
 //! What scenes provide is that of the whole system: energy, reactions, outputs, operators, linearisations.
 
-use guen::Linearizable;
-use guen::RunningError;
 use guen::prelude::*;
+use guen::{Guarded, Linearizable, RunningError};
 
 use crate::compare::{assert_agree, states};
 use crate::kinds::{PAIR, TIED, pair, tied};

@@ -275,7 +275,7 @@ fn systems(
             }
         }
     });
-    let check_costs = integrated::check_costs(subject, layout, &checks);
+    let (all, hundredths) = checks.in_rates(subject, layout);
     let restored = integrated::restored(subject, layout);
     let modes = integrated::through_modes(subject);
     let differentiable = integrated::differentiable(layout, false);
@@ -290,13 +290,19 @@ fn systems(
                 program::rhs(&#prepared.constants, &#prepared.hoisted, t, state, #held)
             }
 
+            #switches
+            #restored
+            __guen::guarded!(#size);
+        }
+
+        impl<R: __guen::Real> __guen::Guarded<R, #size> for #owner {
             fn conserved(&self, t: R, state: &[R; #size]) -> __guen::Invariants<R> {
                 <R as __guen::Real>::vectorize(#[inline(always)] || {
                     let prepared = &#prepared;
                     let values = program::carry(&prepared.constants, &prepared.hoisted, t, state);
                     let drift = __guen::drift(&values, &state[#variables..]);
                     #kept
-                    let below = __guen::System::conserved(&#below, t, &Prepared::variables(state));
+                    let below = __guen::Guarded::conserved(&#below, t, &Prepared::variables(state));
                     __guen::Invariants { carried: drift, ..below }
                 })
             }
@@ -308,19 +314,18 @@ fn systems(
                 let _ = &prepared;
                 let variables = Prepared::<__guen::RunningError<R>>::variables(state);
                 #[allow(unused_mut, reason = "there may be no further singularities")]
-                let mut written = __guen::System::singularities(&#below, t, &variables, values);
+                let mut written = __guen::Guarded::singularities(&#below, t, &variables, values);
                 #further
                 written
             }
 
-            #switches
-            #restored
-
             fn condition(&self, t: R, state: &[R; #size]) -> R {
-                __guen::System::condition(&#below, t, &Prepared::variables(state))
+                __guen::Guarded::condition(&#below, t, &Prepared::variables(state))
             }
 
-            #check_costs
+            fn check_costs(&self) -> __guen::CheckCosts {
+                __guen::CheckCosts::of(#all, #hundredths)
+            }
         }
         #differentiable
         __guen::linearizable!(#size, #count; by duals #modes);

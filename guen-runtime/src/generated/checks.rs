@@ -221,7 +221,7 @@ pub fn joined<R: Real, const N: usize>(head: &[R], tail: &[R]) -> [R; N] {
 }
 
 /// Writes the first `count` functions that must not vanish to the head of `values`, as far as there is place for them, and
-/// returns how many: what [`System::singularities`](crate::System::singularities) and [`System::switches`](crate::System::switches) do with them.
+/// returns how many: what [`Guarded::singularities`](crate::Guarded::singularities) and [`System::switches`](crate::System::switches) do with them.
 ///
 /// ```
 /// use guen_runtime::{RunningError, checks::placed};

@@ -3,7 +3,7 @@
 use crate::linear_algebra::Lu;
 use crate::numbers::real::Real;
 
-/// The condition that [`System::condition`](crate::System::condition) speaks of: for a positive definite matrix
+/// The condition that [`Guarded::condition`](crate::Guarded::condition) speaks of: for a positive definite matrix
 /// `max_s M_ss (M^-1)_ss`, by `M = D^{1/2} L P L^T D^{1/2}` with the diagonal `D` of `M`. For one that is not, the
 /// condition in the largest row sum of the matrix with its rows and columns scaled to a largest entry of about one.
 ///

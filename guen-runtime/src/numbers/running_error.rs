@@ -18,7 +18,7 @@ use crate::numbers::rules::assign_operators;
 ///   order: terms with `u^2` are left out, and slopes are those at the value, so that next to a singularity of `f`, as of the arc sine
 ///   at one, an argument that is not exact has to be nearer to its value than to the singularity.
 /// - `|value| / error` is one where nothing cancels, and the part that is left where something does: a function that
-///   must not vanish is at that *relative distance* from its zero. See [`System::singularities`](crate::System::singularities).
+///   must not vanish is at that *relative distance* from its zero. See [`Guarded::singularities`](crate::Guarded::singularities).
 /// - A running error analysis (Wilkinson): errors that cancel each other are not seen, so that the bound grows along
 ///   long programs. A product costs three further products and three sums. Of lanes, each counts its own.
 ///

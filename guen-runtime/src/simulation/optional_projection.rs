@@ -17,7 +17,7 @@ pub struct OptionalProjection<S> {
 }
 
 impl<R: Ordered, S: Simulate<R, N>, const N: usize> System<R, N> for OptionalProjection<S> {
-    forward!(self -> self.system; System<R, N>);
+    forward!(self -> self.system; System<R, N>, guarded);
 
     #[inline]
     fn restore(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError> {

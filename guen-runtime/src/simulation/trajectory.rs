@@ -6,6 +6,7 @@ use crate::numbers::real::{Ordered, Real};
 use crate::simulation::optional_projection::OptionalProjection;
 use crate::simulation::recorder::Step;
 use crate::steppers::{Dense, Interpolant, Outcome, Statistics};
+use crate::system::guarded::Guarded;
 use crate::system::observables::outputs::OutputMap;
 use crate::system::simulate::Simulate;
 use crate::system::{Monitored, System};
@@ -271,11 +272,12 @@ where
     /// The work of the run, and the largest deviations from what the exact motion keeps. Evaluates the invariants at all
     /// accepted steps.
     pub fn statistics(&self) -> Quality {
-        let start = self.system.conserved(self.start.0, &self.start.1);
+        let guarded = self.system.guarded();
+        let start = guarded.conserved(self.start.0, &self.start.1);
         let mut quality = Quality { work: self.work, energy: None, residual: 0.0, carried: 0.0 };
         let (mut change, mut scale) = (0.0_f64, 0.0_f64);
         for t in self.times() {
-            let here = System::conserved(&self.system, t, &self.array_at(t));
+            let here = guarded.conserved(t, &self.array_at(t));
             if let (Some(energy), Some(first)) = (here.energy, start.energy) {
                 change = change.max((energy - first).to_f64().abs());
                 scale = scale.max(here.scale.to_f64());

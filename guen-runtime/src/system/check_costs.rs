@@ -4,7 +4,7 @@
 /// less often.
 ///
 /// ```
-/// use guen_runtime::{CheckCosts, System};
+/// use guen_runtime::{CheckCosts, Guarded, System};
 ///
 /// /// A mass on a spring, which says no more than its rates.
 /// struct Oscillator;
@@ -13,14 +13,14 @@
 ///         [v, -x]
 ///     }
 /// }
-/// assert_eq!(Oscillator.check_costs(), CheckCosts { all: 2, singularities: 0.0 });
+/// assert_eq!(Oscillator.guarded().check_costs(), CheckCosts { all: 2, singularities: 0.0 });
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CheckCosts {
-    /// The cost of [`conserved`](crate::System::conserved), [`singularities`](crate::System::singularities) and
-    /// [`condition`](crate::System::condition) together.
+    /// The cost of [`conserved`](crate::Guarded::conserved), [`singularities`](crate::Guarded::singularities) and
+    /// [`condition`](crate::Guarded::condition) together.
     pub all: u32,
-    /// The cost of [`singularities`](crate::System::singularities) alone, with what a guard makes of them: next to fixed steps it
+    /// The cost of [`singularities`](crate::Guarded::singularities) alone, with what a guard makes of them: next to fixed steps it
     /// asks for them more often than for the rest.
     pub singularities: f64,
 }

@@ -1,6 +1,6 @@
 //! Methods of a wrapper that the system inside of it answers.
 
-/// The methods of these traits, passed on to another system: `forward!(self -> self.0; System<R, N>, restore)` inside of an impl.
+/// The methods of these traits, passed on to another system: `forward!(self -> self.0; System<R, N>, restore, guarded)` inside of an impl.
 ///
 /// A second expression, `|t, state| ..`, is the system for what depends on the inputs, the rates and the invariants.
 macro_rules! forward {
@@ -10,7 +10,7 @@ macro_rules! forward {
     ($self:ident -> $inner:expr, |$t:ident, $state:ident| $here:expr; $($what:tt)+) => {
         $crate::system::forward::forward!(@ $self, $inner, |$t, $state| $here; $($what)+);
     };
-    (@ $self:ident, $inner:expr, |$t:ident, $state:ident| $here:expr; System<$R:ty, $N:ident>, restore) => {
+    (@ $self:ident, $inner:expr, |$t:ident, $state:ident| $here:expr; System<$R:ty, $N:ident>, restore $(, $guarded:ident)?) => {
         #[inline]
         fn restore(
             &$self,
@@ -18,6 +18,14 @@ macro_rules! forward {
             state: &mut [$R; $N],
         ) -> Result<(), $crate::system::constraints::positions_error::PositionsError> {
             $inner.restore(t, state)
+        }
+
+        $crate::system::forward::forward!(@ $self, $inner, |$t, $state| $here; System<$R, $N> $(, $guarded)?);
+    };
+    (@ $self:ident, $inner:expr, |$t:ident, $state:ident| $here:expr; System<$R:ty, $N:ident>, guarded) => {
+        #[inline]
+        fn guarded(&$self) -> impl $crate::system::guarded::Guarded<$R, $N> {
+            $inner.guarded()
         }
 
         $crate::system::forward::forward!(@ $self, $inner, |$t, $state| $here; System<$R, $N>);
@@ -28,6 +36,12 @@ macro_rules! forward {
             $here.rhs($t, $state)
         }
 
+        #[inline]
+        fn switches(&$self, $t: $R, $state: &[$R; $N], values: &mut [$R]) -> usize {
+            $here.switches($t, $state, values)
+        }
+    };
+    (@ $self:ident, $inner:expr, |$t:ident, $state:ident| $here:expr; Guarded<$R:ty, $N:ident>) => {
         #[inline]
         fn conserved(&$self, $t: $R, $state: &[$R; $N]) -> $crate::system::invariants::Invariants<$R> {
             $here.conserved($t, $state)
@@ -41,11 +55,6 @@ macro_rules! forward {
             values: &mut [$crate::numbers::running_error::RunningError<$R>],
         ) -> usize {
             $inner.singularities(t, state, values)
-        }
-
-        #[inline]
-        fn switches(&$self, $t: $R, $state: &[$R; $N], values: &mut [$R]) -> usize {
-            $here.switches($t, $state, values)
         }
 
         #[inline]

@@ -1,7 +1,7 @@
 //! Invariants: the quantities that a system tells the guards of a stepper, and that its exact solutions keep.
 
 /// Quantities of one state that a guard compares with those of the start: see
-/// [`System::conserved`](crate::System::conserved).
+/// [`Guarded::conserved`](crate::Guarded::conserved).
 ///
 /// ```
 /// use guen_runtime::Invariants;

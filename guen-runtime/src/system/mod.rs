@@ -5,6 +5,7 @@ pub(crate) mod constants_error;
 pub(crate) mod constraints;
 pub(crate) mod derivatives;
 pub(crate) mod forward;
+pub(crate) mod guarded;
 pub(crate) mod hints;
 pub(crate) mod inputs;
 pub(crate) mod invariants;
@@ -17,10 +18,8 @@ pub(crate) mod with_scalar;
 use self::constraints::positions_error::PositionsError;
 use crate::numbers::lanes::Lanes;
 use crate::numbers::real::Real;
-use crate::numbers::running_error::RunningError;
-use crate::system::check_costs::CheckCosts;
 use crate::system::forward::forward;
-use crate::system::invariants::Invariants;
+use crate::system::guarded::Guarded;
 
 /// The most [switching functions](System::switches) of a system.
 pub const MAX_SWITCHES: usize = 64;
@@ -59,28 +58,6 @@ pub trait System<R: Real, const N: usize> {
         Ok(())
     }
 
-    /// Quantities that the exact motion keeps, for the [`Guard`](crate::steppers::Guard) of a stepper to look at now
-    /// and then. None, unless a system says more; generated systems do.
-    #[inline]
-    fn conserved(&self, _t: R, _state: &[R; N]) -> Invariants<R> {
-        Invariants::default()
-    }
-
-    /// Writes functions that must not vanish, since the system's chart or its equations end there, to the head of
-    /// `values`, and returns how many: none, unless a system says more. What does not fit is left out. Their distance
-    /// from vanishing is what is [`left`](RunningError::left) of them, given how uncertain time and state are. A guard
-    /// refuses to go on where one of them changes its sign or is closer than its limit, and calls this inside of
-    /// [`Real::vectorize`], which costs less than to do so here.
-    #[inline]
-    fn singularities(
-        &self,
-        _t: RunningError<R>,
-        _state: &[RunningError<R>; N],
-        _values: &mut [RunningError<R>],
-    ) -> usize {
-        0
-    }
-
     /// Writes functions at whose zeros the right-hand side changes its formula, as `max(0, x)` does at `x = 0`, to the head of
     /// `values`, and returns how many: none, unless a system says more. At most [`MAX_SWITCHES`] count. A method that chooses its
     /// steps ends one at every change of sign, located to rounding, and starts anew behind it.
@@ -110,32 +87,18 @@ pub trait System<R: Real, const N: usize> {
         0
     }
 
-    /// Returns the condition of the equations for the accelerations: one where they are not coupled, infinite where
-    /// they cannot be solved, whatever the units. Rounding errors of the accelerations are up to so many roundings.
-    ///
-    /// ```text
-    /// max_s M_ss (M^-1)_ss
-    /// ```
-    ///
-    /// with the mass matrix `M`: how much less inertia a parameter has while the others are free to move than while
-    /// they are held. The condition of `M`, scaled to a diagonal of ones, is at least this and at most `l^2` times
-    /// this, with `l` parameters. Of lanes that of each. One, unless a system says more; generated systems do.
+    /// Answers to the [`Guard`](crate::steppers::Guard) of a stepper: by default those of `()`, which are the defaults of [`Guarded`]. A
+    /// system with answers of its own implements that trait and returns `self`; generated systems do.
     #[inline]
-    fn condition(&self, _t: R, _state: &[R; N]) -> R {
-        R::one()
-    }
-
-    /// The costs of [`conserved`](System::conserved), [`singularities`](System::singularities) and
-    /// [`condition`](System::condition), by which a guard decides how often it checks. Those of
-    /// [`CheckCosts::default`], unless a system says more; generated systems count their operations.
-    #[inline]
-    fn check_costs(&self) -> CheckCosts {
-        CheckCosts::default()
-    }
+    fn guarded(&self) -> impl Guarded<R, N> {}
 }
 
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
-    forward!(self -> (**self); System<R, N>, restore);
+    forward!(self -> (**self); System<R, N>, restore, guarded);
+}
+
+impl<R: Real, G: Guarded<R, N> + ?Sized, const N: usize> Guarded<R, N> for &G {
+    forward!(self -> (**self); Guarded<R, N>);
 }
 
 /// A system over `f64` of which several, with constants of their own, can be put into lanes.

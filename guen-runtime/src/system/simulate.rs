@@ -42,7 +42,7 @@ pub trait Simulate<R: Real, const N: usize>: System<R, N> {
     /// The units of the entries of a state, for tables and plots; each may be empty, and all are missing where none is declared.
     const UNITS: &'static [&'static str] = &[];
 
-    /// The functions that must not vanish, in the order of [`singularities`](System::singularities), for messages; empty where
+    /// The functions that must not vanish, in the order of [`singularities`](crate::Guarded::singularities), for messages; empty where
     /// they have no names.
     const DOMAIN: &'static [&'static str] = &[];
 

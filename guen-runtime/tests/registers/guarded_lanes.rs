@@ -3,7 +3,7 @@
 use guen_runtime::lanes::{Backend, LaneTask, Lanes, Mask, Width, dispatch_on};
 use guen_runtime::prelude::*;
 use guen_runtime::steppers::InLanes;
-use guen_runtime::{CheckCosts, Invariants, RunningError, Setting, checks};
+use guen_runtime::{CheckCosts, Guarded, Invariants, RunningError, Setting, checks};
 
 /// Something to go wrong in every way that a guard knows, by the first entry of the state, which says how much of it there is.
 trait Faulty {
@@ -59,6 +59,12 @@ impl<R: Real> System<R, 3> for Fault {
         )
     }
 
+    fn guarded(&self) -> impl Guarded<R, 3> {
+        self
+    }
+}
+
+impl<R: Real> Guarded<R, 3> for Fault {
     fn conserved(&self, _t: R, state: &[R; 3]) -> Invariants<R> {
         as_type!(self, F => F::conserved(state))
     }

@@ -1,7 +1,7 @@
 //! The place and the work that an error tells, by who found the fault: the guard, or what is asked of a place within a step.
 
 use guen_runtime::steppers::{Guard, Integration, Rk4};
-use guen_runtime::{Cause, Invariants, PositionsError, System};
+use guen_runtime::{Cause, Guarded, Invariants, PositionsError, System};
 
 /// `x' = 1`, which calls `x` its energy, and has no state on its constraints at one time.
 struct Straight {
@@ -13,12 +13,18 @@ impl System<f64, 1> for Straight {
         [1.0]
     }
 
-    fn conserved(&self, _t: f64, &[x]: &[f64; 1]) -> Invariants<f64> {
-        Invariants { energy: Some(x), scale: 1.0, residual: 0.0, carried: 0.0 }
-    }
-
     fn restore(&self, t: f64, _state: &mut [f64; 1]) -> Result<(), PositionsError> {
         if t == self.barred { Err(PositionsError::NotFound { residual: 1.0 }) } else { Ok(()) }
+    }
+
+    fn guarded(&self) -> impl Guarded<f64, 1> {
+        self
+    }
+}
+
+impl Guarded<f64, 1> for Straight {
+    fn conserved(&self, _t: f64, &[x]: &[f64; 1]) -> Invariants<f64> {
+        Invariants { energy: Some(x), scale: 1.0, residual: 0.0, carried: 0.0 }
     }
 }
 

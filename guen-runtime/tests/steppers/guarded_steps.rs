@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 
 use guen_runtime::prelude::*;
 use guen_runtime::steppers::Method;
-use guen_runtime::{Equations, Generic, RunningError, generic};
+use guen_runtime::{Equations, Generic, Guarded, RunningError, generic};
 
 fn go_on<const N: usize>(_: f64, _: &[f64; N]) -> ControlFlow<()> {
     ControlFlow::Continue(())
@@ -133,6 +133,12 @@ impl System<f64, 2> for Pole {
         [(t - 1.0) / x, self.offset / (x * x)]
     }
 
+    fn guarded(&self) -> impl Guarded<f64, 2> {
+        self
+    }
+}
+
+impl Guarded<f64, 2> for Pole {
     fn singularities(
         &self,
         _t: RunningError<f64>,
@@ -188,6 +194,12 @@ impl System<f64, 1> for Asked {
         [0.0]
     }
 
+    fn guarded(&self) -> impl Guarded<f64, 1> {
+        self
+    }
+}
+
+impl Guarded<f64, 1> for Asked {
     fn singularities(
         &self,
         t: RunningError<f64>,

@@ -32,7 +32,7 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use guen_runtime::steppers::{Method, Taylor};
-use guen_runtime::{Real, System, TaylorSeries, WithScalar};
+use guen_runtime::{Guarded, Real, System, TaylorSeries, WithScalar};
 
 pub use choice::{Caveat, Choice, NoChoice};
 pub use digits71::Digits71;
@@ -441,7 +441,7 @@ fn tells_of<L, const N: usize>(system: Rc<L>) -> Tells<N>
 where
     L: System<Digits71, N> + 'static,
 {
-    Box::new(move |t, x| system.conserved(t, x))
+    Box::new(move |t, x| system.guarded().conserved(t, x))
 }
 
 impl<S, const N: usize> Study<S, N> {

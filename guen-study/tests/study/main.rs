@@ -140,6 +140,13 @@ impl<R: Real> guen_runtime::System<R, 2> for Turning {
     fn rhs(&self, _t: R, &[x, v]: &[R; 2]) -> [R; 2] {
         [v, -x]
     }
+
+    fn guarded(&self) -> impl guen_runtime::Guarded<R, 2> {
+        self
+    }
+}
+
+impl<R: Real> guen_runtime::Guarded<R, 2> for Turning {
     fn conserved(&self, _t: R, &[x, v]: &[R; 2]) -> Invariants<R> {
         let energy = x * x + v * v;
         Invariants {

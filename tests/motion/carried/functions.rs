@@ -1,8 +1,8 @@
 //! A system whose rates call every elementary function, with an input and explicit time; a scene that fixes a constant; and
 //! one with a constraint on positions.
 
-use guen::RunningError;
 use guen::prelude::*;
+use guen::{Guarded, RunningError};
 
 guen::mechanical_system! {
     /// A bead in a valley, with drag, a motor and everything else.

@@ -12,19 +12,10 @@ use crate::emit::thresholds::{
 };
 use crate::model::Model;
 
-/// The methods `conserved`, `singularities`, `switches` and `condition` of the trait `System`, as far as the level has what they look at. `prepared` is the
+/// The methods `restore`, `switches` and `guarded` of the trait `System`, as far as the level has what they look at. `prepared` is the
 /// prepared system.
-pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &TokenStream) -> TokenStream {
-    let level = subject.level;
-    let (size, n) = (layout.size, layout.n);
-    let program = |name: TokenStream, state: TokenStream| quote!(program::#name(&#prepared.constants, &#prepared.hoisted, t, #state));
-    // Only an energy that is kept is worth its price.
-    let kept = (layout.is_whole && level.derivation.conservative).then(|| quote!(kept));
-    let held = (!level.selection.holonomic.is_empty()).then(|| quote!(positions));
-    let singularities = (level.singularities > 0).then(|| {
-        let count = level.singularities;
-        quote!(__guen::singularities!(#prepared; #size #count);)
-    });
+pub(super) fn integrated(subject: &Subject<'_, '_>, layout: &Layout, prepared: &TokenStream) -> TokenStream {
+    let (level, size) = (subject.level, layout.size);
     let switches = (!level.switches.is_empty()).then(|| {
         let count = level.switches.len();
         let inputs = match layout.inputs {
@@ -33,28 +24,31 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
         };
         quote!(__guen::switches!(#prepared; #size #count #inputs);)
     });
-    let condition = level.program(function::MASS).map(|_| {
-        let l = layout.l;
-        let mass = program(quote!(mass), quote!(&x));
-        quote! {
-            fn condition(&self, t: R, state: &[R; #size]) -> R {
-                <R as __guen::Real>::vectorize(#[inline(always)] || {
-                    let x: [R; #n] = __guen::head(state);
-                    __guen::condition::<R, #l>(&#mass)
-                })
-            }
-        }
-    });
-    let check_costs = check_costs(subject, layout, &CheckOperations::of(subject, layout));
     let restored = restored(subject, layout);
     quote! {
         #restored
-        __guen::conserved!(#prepared; #n #size [#kept] [#held]);
-        #singularities
         #switches
+        __guen::guarded!(#size);
+    }
+}
 
-        #condition
-        #check_costs
+/// The trait `Guarded`. `prepared` is the prepared system.
+pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &TokenStream) -> TokenStream {
+    let level = subject.level;
+    let (owner, size, n, l) = (owner(layout), layout.size, layout.n, layout.l);
+    // Only an energy that is kept is worth its price.
+    let kept = (layout.is_whole && level.derivation.conservative).then(|| quote!(kept));
+    let held = (!level.selection.holonomic.is_empty()).then(|| quote!(positions));
+    let edges = (level.singularities > 0).then(|| {
+        let count = level.singularities;
+        quote!([#count])
+    });
+    let masses = level.program(function::MASS).map(|_| quote!(; #l));
+    let (all, hundredths) = CheckOperations::of(subject, layout).in_rates(subject, layout);
+    quote! {
+        impl<R: __guen::Real> __guen::Guarded<R, #size> for #owner<R> {
+            __guen::guard_answers!(#prepared; #n #size, #all #hundredths, [#kept] [#held] #edges #masses);
+        }
     }
 }
 
@@ -122,27 +116,20 @@ impl CheckOperations {
         let another = if singularities > 0 { SECOND_SYSTEM_SINGULARITIES } else { 0 };
         Self { all: self.all + below.all + SECOND_SYSTEM_COST, singularities: singularities + another }
     }
-}
 
-/// The method `check_costs`: operations of checks in right-hand sides with what a stepper does for each.
-pub(in crate::emit) fn check_costs(
-    subject: &Subject<'_, '_>,
-    layout: &Layout,
-    checks: &CheckOperations,
-) -> TokenStream {
-    let rhs = subject.level.program(function::RHS).map_or(0, |program| program.cost.weighted());
-    let one = (rhs + STAGE_COST * layout.size as u64).max(1);
-    let short = |cost: u64| u32::try_from(cost).unwrap_or(u32::MAX);
-    let all = short((checks.all + CHECK_OVERHEAD).div_ceil(one));
-    // In hundredths, which are enough.
-    let hundredths = match checks.singularities {
-        0 => 0,
-        singularities => short(((singularities + SINGULARITY_CHECK_OVERHEAD) * 100).div_ceil(one)),
-    };
-    quote! {
-        fn check_costs(&self) -> __guen::CheckCosts {
-            __guen::CheckCosts::of(#all, #hundredths)
-        }
+    /// The numbers that `check_costs` returns: operations of checks in right-hand sides with what a stepper does for each, and those of
+    /// singularities in hundredths.
+    pub(in crate::emit) fn in_rates(self, subject: &Subject<'_, '_>, layout: &Layout) -> (u32, u32) {
+        let rhs = subject.level.program(function::RHS).map_or(0, |program| program.cost.weighted());
+        let one = (rhs + STAGE_COST * layout.size as u64).max(1);
+        let short = |cost: u64| u32::try_from(cost).unwrap_or(u32::MAX);
+        let all = short((self.all + CHECK_OVERHEAD).div_ceil(one));
+        // In hundredths, which are enough.
+        let hundredths = match self.singularities {
+            0 => 0,
+            singularities => short(((singularities + SINGULARITY_CHECK_OVERHEAD) * 100).div_ceil(one)),
+        };
+        (all, hundredths)
     }
 }
 

@@ -161,7 +161,9 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         quote!(__guen::monitored!(#owner, |owner| owner #inner, #size #positions);)
     });
     if layout.inputs == 0 {
-        let guarded = integrated::guarded(subject, layout, &quote!(self));
+        let prepared = quote!(self);
+        let integrated = integrated::integrated(subject, layout, &prepared);
+        let guarded = integrated::guarded(subject, layout, &prepared);
         let differentiable = integrated::differentiable(layout, subject.level.jacobians.rates.is_some());
         let simulate = integrated::simulate(subject, layout, true, !selection.holonomic.is_empty());
         return quote! {
@@ -171,14 +173,17 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                     program::rhs(&self.constants, &self.hoisted, t, state, &[])
                 }
 
-                #guarded
+                #integrated
             }
+            #guarded
             #differentiable
             #monitored
             #simulate
         };
     }
-    let guarded = integrated::guarded(subject, layout, &quote!(self.system));
+    let prepared = quote!(self.system);
+    let integrated = integrated::integrated(subject, layout, &prepared);
+    let guarded = integrated::guarded(subject, layout, &prepared);
     let differentiable = integrated::differentiable(layout, subject.level.jacobians.rates.is_some());
     let simulate = integrated::simulate(subject, layout, true, !selection.holonomic.is_empty());
     quote! {
@@ -191,8 +196,9 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                 program::rhs(&self.system.constants, &self.system.hoisted, t, state, &inputs)
             }
 
-            #guarded
+            #integrated
         }
+        #guarded
         #differentiable
         #monitored
         #simulate

@@ -201,7 +201,7 @@ macro_rules! domain {
 macro_rules! condition {
     ($size:literal $(, $inputs:ident)?) => {
         /// Returns the condition of the equations for the accelerations, whatever the units: one where parameters are
-        /// not coupled. See [`System::condition`](__guen::System::condition).
+        /// not coupled. See [`Guarded::condition`](__guen::Guarded::condition).
         pub fn condition(&self, t: R, state: &State<R>) -> R {
             let system = self;
             $(
@@ -209,7 +209,7 @@ macro_rules! condition {
                 let $inputs = ::core::default::Default::default();
                 let system = &system.driven($inputs);
             )?
-            $crate::System::<R, $size>::condition(system, t, &state.__guen_array())
+            $crate::Guarded::<R, $size>::condition(system, t, &state.__guen_array())
         }
     };
 }
@@ -411,20 +411,68 @@ macro_rules! with_scalar {
     };
 }
 
-/// `conserved` of the trait `System`: the path to the prepared system, the numbers of coordinates and of states, `kept` where the energy
-/// is constant, `positions` where there are holonomic constraints.
+/// `System::guarded` of a system that answers itself, with the number of states.
 #[doc(hidden)]
 #[macro_export]
-macro_rules! conserved {
-    ($self:ident $(. $inner:ident)?; $n:literal $size:literal [$($kept:ident)?] [$($positions:ident)?]) => {
+macro_rules! guarded {
+    ($size:literal) => {
+        #[inline]
+        fn guarded(&self) -> impl $crate::Guarded<R, $size> {
+            self
+        }
+    };
+}
+
+/// The methods of the trait `Guarded`: the path to the prepared system, the numbers of coordinates and of states, the cost of a check and, in
+/// hundredths, that of its singularities, `kept` where the energy is constant, `positions` where there are holonomic constraints, the
+/// number of functions that must not vanish, and that of parameters where there is a mass matrix to look at.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! guard_answers {
+    (
+        $self:ident $(. $inner:ident)?; $n:literal $size:literal, $all:literal $hundredths:literal, [$($kept:ident)?] [$($positions:ident)?]
+        $([$edges:literal])? $(; $l:literal)?
+    ) => {
         fn conserved(&$self, t: R, state: &[R; $size]) -> $crate::Invariants<R> {
             <R as $crate::Real>::vectorize(#[inline(always)] || {
                 let prepared = &$self $(.$inner)?;
                 let x: [R; $n] = $crate::checks::head(state);
                 let _ = (prepared, t, &x);
-                let (energy, scale) = $crate::conserved!(@ energy [$($kept)?] prepared t state x);
-                let residual = $crate::conserved!(@ residual [$($positions)?] prepared t x);
+                let (energy, scale) = $crate::guard_answers!(@ energy [$($kept)?] prepared t state x);
+                let residual = $crate::guard_answers!(@ residual [$($positions)?] prepared t x);
                 $crate::Invariants { energy, scale, residual, carried: R::zero() }
+            })
+        }
+
+        $crate::guard_answers!(@ singularities [$self $(. $inner)?] $size $($edges)?);
+        $crate::guard_answers!(@ condition [$self $(. $inner)?] $n $size $($l)?);
+
+        fn check_costs(&$self) -> $crate::CheckCosts {
+            $crate::CheckCosts::of($all, $hundredths)
+        }
+    };
+    (@ singularities [$self:ident $(. $inner:ident)?] $size:literal) => {};
+    (@ singularities [$self:ident $(. $inner:ident)?] $size:literal $edges:literal) => {
+        #[inline]
+        fn singularities(
+            &$self,
+            t: $crate::RunningError<R>,
+            state: &[$crate::RunningError<R>; $size],
+            values: &mut [$crate::RunningError<R>],
+        ) -> usize {
+            let prepared = &$self $(.$inner)?;
+            let (constants, hoisted) =
+                (&$crate::checks::rounded(&prepared.constants), &$crate::PreparedValues::rounded_once(&prepared.hoisted));
+            $crate::checks::placed(values, &program::domain(constants, hoisted, t, state), $edges)
+        }
+    };
+    (@ condition [$self:ident $(. $inner:ident)?] $n:literal $size:literal) => {};
+    (@ condition [$self:ident $(. $inner:ident)?] $n:literal $size:literal $l:literal) => {
+        fn condition(&$self, t: R, state: &[R; $size]) -> R {
+            <R as $crate::Real>::vectorize(#[inline(always)] || {
+                let prepared = &$self $(.$inner)?;
+                let x: [R; $n] = $crate::checks::head(state);
+                $crate::checks::condition::<R, $l>(&program::mass(&prepared.constants, &prepared.hoisted, t, &x))
             })
         }
     };
@@ -448,26 +496,6 @@ macro_rules! conserved {
             $crate::RunningError::once($t),
             &$crate::checks::positions_rounded_once($x),
         ))
-    };
-}
-
-/// `singularities` of the trait `System`: the path to the prepared system, the numbers of states and of functions.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! singularities {
-    ($self:ident $(. $inner:ident)?; $size:literal $count:literal) => {
-        #[inline]
-        fn singularities(
-            &$self,
-            t: $crate::RunningError<R>,
-            state: &[$crate::RunningError<R>; $size],
-            values: &mut [$crate::RunningError<R>],
-        ) -> usize {
-            let prepared = &$self $(.$inner)?;
-            let (constants, hoisted) =
-                (&$crate::checks::rounded(&prepared.constants), &$crate::PreparedValues::rounded_once(&prepared.hoisted));
-            $crate::checks::placed(values, &program::domain(constants, hoisted, t, state), $count)
-        }
     };
 }
 

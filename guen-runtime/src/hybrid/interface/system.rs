@@ -178,7 +178,7 @@ pub trait HybridSystem<const N: usize, const W: usize, const C: usize, const S: 
         Ok(*state)
     }
 
-    /// Writes the functions that must not vanish, as [`System::singularities`](crate::System::singularities) does, and returns how many.
+    /// Writes the functions that must not vanish, as [`Guarded::singularities`](crate::Guarded::singularities) does, and returns how many.
     #[inline]
     fn singularities<R: Lift<f64>>(
         &self,

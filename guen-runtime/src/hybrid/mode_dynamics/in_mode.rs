@@ -17,6 +17,7 @@ use crate::system::constraints::positions_error::PositionsError;
 use crate::system::derivatives::differentiable::Differentiable;
 use crate::system::derivatives::linearization::seeded;
 use crate::system::derivatives::series::{Coefficients, TaylorSeries};
+use crate::system::guarded::Guarded;
 
 /// A system in one of its modes, as a smooth [`System`] that every stepper runs.
 ///
@@ -300,16 +301,6 @@ where
         Ok(())
     }
 
-    #[inline]
-    fn singularities(
-        &self,
-        t: RunningError<R>,
-        state: &[RunningError<R>; N],
-        values: &mut [RunningError<R>],
-    ) -> usize {
-        self.system.singularities(t, state, values)
-    }
-
     /// The branches of piecewise functions, where they follow the state.
     fn switches(&self, t: R, state: &[R; N], values: &mut [R]) -> usize {
         let is_branch = |signal: &Signal| signal.effect == Effect::Branch;
@@ -319,6 +310,27 @@ where
         let found = self.system.signals(t, state);
         let branches = H::SIGNALS.iter().zip(found).filter(|(signal, _)| is_branch(signal));
         values.iter_mut().zip(branches).map(|(place, (_, value))| *place = value).count()
+    }
+
+    #[inline]
+    fn guarded(&self) -> impl Guarded<R, N> {
+        self
+    }
+}
+
+impl<R: Lift<f64>, H, const N: usize, const W: usize, const C: usize, const S: usize> Guarded<R, N>
+    for InMode<H, N, W, C, S>
+where
+    H: HybridSystem<N, W, C, S>,
+{
+    #[inline]
+    fn singularities(
+        &self,
+        t: RunningError<R>,
+        state: &[RunningError<R>; N],
+        values: &mut [RunningError<R>],
+    ) -> usize {
+        self.system.singularities(t, state, values)
     }
 }
 

@@ -93,7 +93,7 @@ pub enum Cause {
     Condition {
         /// The time at which it was found.
         found: f64,
-        /// The condition there, as [`System::condition`](crate::System::condition) defines it.
+        /// The condition there, as [`Guarded::condition`](crate::Guarded::condition) defines it.
         condition: f64,
         /// The limit.
         limit: f64,

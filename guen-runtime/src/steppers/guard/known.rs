@@ -12,6 +12,7 @@ use crate::steppers::guard::defect::{Defects, Worst, worst};
 use crate::steppers::guard::runs::Runs;
 use crate::system::System;
 use crate::system::check_costs::CheckCosts;
+use crate::system::guarded::Guarded;
 use crate::system::invariants::Invariants;
 
 /// The number of functions that are watched; further ones are not.
@@ -56,7 +57,7 @@ pub(in crate::steppers) struct Found<R> {
 
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Watched<R, N> for S {
     fn costs(&self) -> CheckCosts {
-        self.check_costs()
+        self.guarded().check_costs()
     }
 
     #[inline]
@@ -69,8 +70,9 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Watched<R, N> for S {
         R::vectorize(
             #[inline(always)]
             || {
-                let invariants = self.conserved(place.time, place.state);
-                let condition = self.condition(place.time, place.state);
+                let asked = self.guarded();
+                let invariants = asked.conserved(place.time, place.state);
+                let condition = asked.condition(place.time, place.state);
                 Found { invariants, condition, count: self.functions(place, largest, into) }
             },
         )
@@ -85,7 +87,9 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Watched<R, N> for S {
                 for ((entry, value), error) in rounded.iter_mut().zip(place.state).zip(largest) {
                     *entry = RunningError { value: *value, error: *error };
                 }
-                self.singularities(RunningError::once(place.time), &rounded, into).min(MAX_SINGULARITIES)
+                self.guarded()
+                    .singularities(RunningError::once(place.time), &rounded, into)
+                    .min(MAX_SINGULARITIES)
             },
         )
     }

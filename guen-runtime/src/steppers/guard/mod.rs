@@ -26,8 +26,8 @@ use crate::steppers::driver::error::{Cause, Setting};
 use crate::system::System;
 
 /// The limits that a run must not violate. A stepper checks these by default, on whatever the system tells in
-/// [`conserved`](crate::System::conserved), [`singularities`](crate::System::singularities) and
-/// [`condition`](crate::System::condition), and methods with a fixed step by estimates of the errors of single steps.
+/// [`conserved`](crate::Guarded::conserved), [`singularities`](crate::Guarded::singularities) and
+/// [`condition`](crate::Guarded::condition), and methods with a fixed step by estimates of the errors of single steps.
 ///
 /// Every accepted state is tested to be finite. After the first step, then every [`every`](Guard::every) steps, at the end
 /// of the run and before an error is returned, the guard checks the rest; the first check includes the start. Where it
@@ -69,7 +69,7 @@ pub struct Guard {
     /// such positions, as a linkage whose bars come to lie on one line, where the state at each side is as it should be. Everything else
     /// is watched as before, the condition of the mass matrix included.
     pub singularity: f64,
-    /// The largest [`condition`](crate::System::condition) of the mass matrix. By default `1e12`, where accelerations have
+    /// The largest [`condition`](crate::Guarded::condition) of the mass matrix. By default `1e12`, where accelerations have
     /// four digits left in `f64`; in another real the limit is divided by the ratio of the roundings.
     pub condition: f64,
     /// The largest error of methods with a fixed step, estimated at every check from one step, relative to the largest value
@@ -103,13 +103,18 @@ impl Guard {
     /// the errors of steps and the paces of functions that must not vanish. A fault that is over at the next of the states is not found.
     ///
     /// ```
-    /// use guen_runtime::{Cause, Invariants, System, steppers::Guard};
+    /// use guen_runtime::{Cause, Guarded, Invariants, System, steppers::Guard};
     ///
     /// struct Oscillator;
     /// impl System<f64, 2> for Oscillator {
     ///     fn rhs(&self, _t: f64, &[x, v]: &[f64; 2]) -> [f64; 2] {
     ///         [v, -x]
     ///     }
+    ///     fn guarded(&self) -> impl Guarded<f64, 2> {
+    ///         self
+    ///     }
+    /// }
+    /// impl Guarded<f64, 2> for Oscillator {
     ///     fn conserved(&self, _t: f64, &[x, v]: &[f64; 2]) -> Invariants<f64> {
     ///         let energy = (v * v + x * x) / 2.0;
     ///         Invariants { energy: Some(energy), scale: energy, residual: 0.0, carried: 0.0 }

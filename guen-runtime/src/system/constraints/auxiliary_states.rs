@@ -65,7 +65,7 @@ pub fn renormalized<S>(system: S) -> Renormalized<S> {
 }
 
 impl<R: Real, S: AuxiliaryStates<R, N>, const N: usize> System<R, N> for Renormalized<S> {
-    forward!(self -> self.0; System<R, N>);
+    forward!(self -> self.0; System<R, N>, guarded);
 
     #[inline]
     fn restore(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError> {

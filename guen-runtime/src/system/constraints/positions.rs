@@ -385,7 +385,7 @@ where
     R: Ordered,
     S: System<R, M> + Positions<R, N, H>,
 {
-    forward!(self -> self.0; System<R, M>);
+    forward!(self -> self.0; System<R, M>, guarded);
 
     fn restore(&self, t: R, state: &mut [R; M]) -> Result<(), PositionsError> {
         let mut restored = *state;

@@ -13,6 +13,7 @@ use crate::system::derivatives::differentiable::Differentiable;
 use crate::system::derivatives::linearization::{Liftable, Linearizable, Linearization, seeded};
 use crate::system::derivatives::series::{Coefficients, DrivenSeries, TaylorSeries};
 use crate::system::forward::forward;
+use crate::system::guarded::Guarded;
 use crate::system::observables::bodies::{Bodies, Body};
 use crate::system::observables::outputs::OutputMap;
 use crate::system::simulate::Simulate;
@@ -49,6 +50,20 @@ where
     F: InputValues<S, R, N>,
 {
     forward!(self -> self.anywhere(), |t, state| self.at(t, state); System<R, N>, restore);
+
+    #[inline]
+    fn guarded(&self) -> impl Guarded<R, N> {
+        self
+    }
+}
+
+impl<S, F, R, const N: usize> Guarded<R, N> for WithInputs<S, F, R, N>
+where
+    R: Real,
+    S: Actuated<R, N>,
+    F: InputValues<S, R, N>,
+{
+    forward!(self -> self.anywhere().guarded(), |t, state| self.at(t, state).guarded(); Guarded<R, N>);
 }
 
 impl<S, F, R, const N: usize> AuxiliaryStates<R, N> for WithInputs<S, F, R, N>

@@ -5,7 +5,7 @@
 
 use guen::prelude::*;
 use guen::steppers::Method;
-use guen::{Differentiable, Liftable, TaylorSeries};
+use guen::{Differentiable, Guarded, Liftable, TaylorSeries};
 use guen_study::Digits71;
 
 use super::growth::{allowed, growth};
@@ -188,7 +188,8 @@ fn energy_change<R: Real, S: System<R, N>, const N: usize>(
     start: &[R; N],
     error: &IntegrationError<R, N>,
 ) -> f64 {
-    let [first, last] = [(begin, start), (error.time, &error.state)].map(|(t, x)| system.conserved(t, x));
+    let [first, last] =
+        [(begin, start), (error.time, &error.state)].map(|(t, x)| system.guarded().conserved(t, x));
     match (first.energy, last.energy) {
         (Some(first_energy), Some(energy)) => {
             let change = (energy - first_energy).to_f64().abs();
