@@ -59,7 +59,6 @@ guen::mechanical_system! {
     }
 }
 
-/// What must not vanish and is constant in a scene alone is one of its pivots.
 guen::mechanical_system! {
     /// Entries that are left of arrays, beside values that have the names of their fields.
     pub system Alone {
@@ -90,6 +89,7 @@ fn entries_alone_beside_values_with_the_names_of_their_fields() {
     assert_eq!(rate.v_1, (9.0 - 1.0) / 4.0);
 }
 
+/// What must not vanish and is constant in a scene alone is one of its pivots.
 #[test]
 fn what_becomes_constant_in_a_scene_is_checked_when_it_is_prepared() {
     let only = unsettled::Only { m: 1.5 }.prepare().unwrap();

@@ -254,7 +254,7 @@ impl Candidate {
         const SECANT_STEPS: usize = 40;
         let steps = needed(&self.code.instructions, self.code.values, &[divisor]);
         let at = |symbol: SymbolId, x: f64| {
-            let moved = Point { moved: Some((symbol, x)), ..point.clone() };
+            let moved = Point { moved: Some((symbol, x)), ..*point };
             run(&steps, self.code.values, &[divisor], prepared, |symbol| moved.value(graph, symbol))[0]
         };
         let symbols = self.code.instructions.iter().filter_map(|instruction| match instruction.operation {
@@ -278,7 +278,7 @@ impl Candidate {
                 if at_b.abs() <= 1e-14 * first || a == b {
                     // A divisor that is a square comes down as the square of the distance.
                     let near = b + POLE_DISTANCE * if start == b { 1.0 } else { start - b };
-                    return Some(Point { moved: Some((symbol, near)), ..point.clone() });
+                    return Some(Point { moved: Some((symbol, near)), ..*point });
                 }
             }
         }

@@ -332,18 +332,22 @@ where
     }
 }
 
-/// Whether the second of three looks, at equal distances, is what the cubic polynomial through the others says, as far as zeros between
-/// them are concerned.
+/// Whether the second of three looks, at equal distances, has the values and rates of the cubic polynomials through the others, as far as
+/// zeros between them are concerned. By chance a value may, and a rate.
 fn is_resolved<const C: usize, const S: usize>([first, middle, last]: [&Look<C, S>; 3]) -> bool {
     let length = last.t - first.t;
     Function::all(C, S).filter(|function| !matches!(function, Function::Regularity | Function::Shared)).all(
         |function| {
             let of =
                 |look: &Look<C, S>| look.values.get(function).map(|value| (value.value, value.tangent[0]));
-            let (Some((a, falls)), Some((m, _)), Some((b, rises))) = (of(first), of(middle), of(last)) else {
+            let (Some((a, leaves)), Some((m, passes)), Some((b, arrives))) =
+                (of(first), of(middle), of(last))
+            else {
                 return true;
             };
-            let missed = (m - 0.5 * (a + b) - length * (falls - rises) / 8.0).abs();
+            let value = 0.5 * (a + b) + length * (leaves - arrives) / 8.0;
+            let change = 1.5 * (b - a) - 0.25 * length * (leaves + arrives);
+            let missed = (m - value).abs().max((length * passes - change).abs() / 8.0);
             let least = a.abs().min(m.abs()).min(b.abs());
             let largest = a.abs().max(m.abs()).max(b.abs());
             !(missed > UNSEEN * least && missed > NEGLIGIBLE * largest)
