@@ -406,6 +406,38 @@ mod tests {
         assert!(definition.is_solved_by(&mut bench, (&plane, &mut frame), &rates).is_err());
     }
 
+    /// A root that is right wherever a residue happens to have its sign, as three points in a row do for one in eight.
+    #[test]
+    fn roots_with_the_sign_of_some_points_are_refused() {
+        let mut bench = Workbench::new(Graph::new());
+        let point = system(&mut bench, &["x"], 1, |graph, _, v, _| {
+            let (zero, one) = (graph.zero(), graph.one());
+            let square = graph.powi(v[0], 2);
+            (vec![Form { row: vec![one], offset: zero }], graph.scale(square, &Rational::new(1, 2)), zero)
+        });
+        let (mut frame, _) = written(&mut bench, &point);
+        let x = point.forms.coordinates[0];
+        let one = bench.graph.one();
+        let square = bench.graph.powi(x, 2);
+        let beside = bench.graph.add(one, square);
+        for k in 1..=24 {
+            let number = bench.graph.number(Rational::integer(k));
+            let left = bench.graph.sub(number, x);
+            let square = bench.graph.powi(left, 2);
+            let radicand = bench.graph.mul(square, beside);
+            let force = bench.graph.sqrt(radicand);
+            let root = bench.graph.sqrt(beside);
+            let other = bench.graph.mul(left, root);
+            let mut definition = Definition::new(&mut bench, &point, &[force]);
+            let mut is_solved_by = |rate| {
+                let rates = [point.etas[0], rate];
+                definition.is_solved_by(&mut bench, (&point, &mut frame), &rates).ok()
+            };
+            assert_eq!(is_solved_by(force), Some(true), "{k}");
+            assert_ne!(is_solved_by(other), Some(true), "{k}");
+        }
+    }
+
     /// A pendulum whose length is one on the constraint.
     #[test]
     fn on_a_constraint_they_need_be_equal_there_only() {
