@@ -107,9 +107,16 @@ pub fn checked(text: &str, with_outline: bool) -> Option<Checked> {
         let missing = missing.filter(|item| !is_without_first_or_second(item));
         // Nor how many zeros change the formula of the rates.
         let missing = missing.filter(|item| !has_switches || !item.contains("const SWITCHES"));
-        // Nor which rows of a mode depend on others.
+        // Nor which rows of a mode depend on others, and which of them belong to instances.
         let with_rows = |item: &String| {
-            let of_rows = ["reactions !", "fn residuals", ":: Positions <", "residuals !", ":: Ordered >"];
+            let of_rows = [
+                "reactions !",
+                " Reactions <",
+                "fn residuals",
+                ":: Positions <",
+                "residuals !",
+                ":: Ordered >",
+            ];
             of_rows.iter().any(|word| item.contains(word))
         };
         let missing = missing.filter(|item| !is_in_modes || !with_rows(item));
