@@ -308,7 +308,9 @@ impl ZeroTest {
     fn is_square(&mut self, g: &Graph, root: ExprId, radicand: ExprId) -> bool {
         /// Points at which another radicand is a square with a probability of 1 in 4096.
         const SQUARES: usize = 12;
-        if self.manifold.as_ref().is_some_and(|manifold| manifold.has(g, root)) {
+        // A number is the same at all points.
+        let is_number = g.symbols_in(&[radicand]).is_empty();
+        if is_number || self.manifold.as_ref().is_some_and(|manifold| manifold.has(g, root)) {
             return false;
         }
         let mut squares = 0;
