@@ -288,7 +288,7 @@ fn a_held_controller_keeps_its_times_over_switches() {
     let dragged = Dragged.prepare().unwrap();
     let start = dragged::State { x: 0.0, v: 0.3 };
     let push = |t: f64| dragged::Inputs { push: if t < 1.5 { -t - 0.5 } else { 4.0 } };
-    // The same, run by run.
+    // The expected end: one run for each period, with its constant push.
     let mut expected = start;
     for k in 0..3 {
         let t = f64::from(k);

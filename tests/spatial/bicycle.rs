@@ -46,7 +46,7 @@ guen::mechanical_system! {
 }
 
 guen::mechanical_system! {
-    /// The same bicycle in redundant coordinates: its rear hub has three of its own, and holonomic equations hold both wheels on the ground.
+    /// A bicycle as above in redundant coordinates: its rear hub has three coordinates, and holonomic equations keep both wheels on the ground.
     pub system FreeBicycle {
         constants {
             rr > 0, rf > 0, base > 0, trail, rake, mr > 0, mb > 0, mh > 0, mf > 0, I > 0, J > 0, K > 0, L > 0, g = 9.81

@@ -111,8 +111,7 @@ fn energies_and_constraints_for_one_sign_of_a_constant_are_accepted() {
     }
 }
 
-/// Roots of squares are one of a number and its opposite, too, though nothing in them is an absolute value: near the rest position they are
-/// one, and far away the other.
+/// `sqrt(x^2)` is `x` near the rest position and may be `-x` far away, as with an absolute value.
 #[test]
 fn roots_of_squares_keep_their_signs() {
     let half = |q: f64| (q / 2.0).cos();

@@ -27,8 +27,8 @@ const LONG_POINTS: usize = 2;
 const NEAR: f64 = 1e-7;
 /// The relative difference up to which values are equal in 237 bits.
 const EQUAL: f64 = 1e-55;
-/// Sizes of coordinates at further points in 237 bits where roots occur, in units of those at others, and the number of points of each:
-/// `sqrt((q - 3)^2)` is `3 - q` wherever `q` is small, and `sqrt(cos(q)^2)` is `cos(q)` within a quarter turn.
+/// Programs with roots are also compared in 237 bits at coordinates that are so many times larger, at so many points of each size: `sqrt((q - 3)^2)` is
+/// `3 - q` only where `q` is small, and `sqrt(cos(q)^2)` is `cos(q)` only within a quarter turn.
 const FAR_SIZES: [f64; 5] = [2.0, 5.0, 20.0, 1e3, 1e6];
 const POINTS_OF_SIZE: u64 = 4;
 /// The relative difference up to which values are equal there: sums of large terms cancel.

@@ -35,8 +35,9 @@ const AGAIN: f64 = 1e-7;
 const PARTS: u32 = 4;
 /// The most looks at functions that swing within a step.
 const MOST_LOOKS: u32 = 2048;
-/// The part of its least value by which a function may be missed between two looks, and the part of its largest one that counts as none.
+/// The largest error of a cubic interpolation between looks, relative to the least of the values: with more, a zero may be hidden.
 const UNSEEN: f64 = 0.25;
+/// The error of a cubic interpolation that is ignored, relative to the largest of the values.
 const NEGLIGIBLE: f64 = 1e-7;
 /// The number of times that the first part of the first step of a mode is divided by eight.
 const FIRST_DIVISIONS: u32 = 10;
@@ -332,8 +333,8 @@ where
     }
 }
 
-/// Whether the second of three looks, at equal distances, has the values and rates of the cubic polynomials through the others, as far as
-/// zeros between them are concerned. By chance a value may, and a rate.
+/// Whether three looks at equal distances are close enough to find all zeros between them: the cubic polynomials through the outer two
+/// predict the values and rates of the middle one. Both are compared, because one of them may agree by chance.
 fn is_resolved<const C: usize, const S: usize>([first, middle, last]: [&Look<C, S>; 3]) -> bool {
     let length = last.t - first.t;
     Function::all(C, S).filter(|function| !matches!(function, Function::Regularity | Function::Shared)).all(

@@ -82,8 +82,8 @@ pub trait Method<R: Real, S: ?Sized, const N: usize> {
     /// Begins a run at this time and state, before any work. Nothing is checked yet.
     fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_>;
 
-    /// Lets a run begin anew where it stood before a step that is not taken, or where the rates jump. A method that has more than a run, as
-    /// samples of a controller, keeps it.
+    /// Restarts a run, after a step that is rejected or at a time at which the rates jump. A method that keeps something beside the run, as
+    /// the sampling times of a controller, keeps it over the restart.
     fn restart<'a>(&'a self, run: &mut Self::Run<'a>, start: &Checkpoint<R, N>) {
         *run = self.start(start);
     }
