@@ -214,6 +214,24 @@ impl Workbench {
         result
     }
 
+    /// Does something on the manifold of some equations, and returns to that of today with all that is remembered.
+    ///
+    /// ```
+    /// use guen_symbolic::{Graph, Role, Verdict, Workbench};
+    /// let mut bench = Workbench::new(Graph::new());
+    /// let (p, q) = (bench.graph.symbol("p", Role::Coordinate), bench.graph.symbol("q", Role::Coordinate));
+    /// let gap = bench.graph.sub(p, q);
+    /// assert_eq!(bench.on_manifold(&[gap], |bench| bench.verdict_on_manifold(gap)), Verdict::Zero);
+    /// assert_eq!(bench.verdict_on_manifold(gap), Verdict::Nonzero);
+    /// ```
+    pub fn on_manifold<T>(&mut self, equations: &[ExprId], work: impl FnOnce(&mut Self) -> T) -> T {
+        let former = self.zero.take_manifold();
+        self.zero.set_manifold(&mut self.graph, equations);
+        let result = work(self);
+        self.zero.return_to(former);
+        result
+    }
+
     /// Zero if it is proved to vanish, else the expression as it is: cheaper than [`Workbench::tidy`].
     pub fn dropped(&mut self, e: ExprId) -> ExprId {
         if self.vanishes(e) { self.graph.zero() } else { e }

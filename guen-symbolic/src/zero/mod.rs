@@ -97,6 +97,12 @@ struct Domain {
     roots_of_squares: FastMap<ExprId, bool>,
 }
 
+/// A manifold that is not asked for a while, with what was decided on it.
+pub(crate) struct FormerManifold {
+    manifold: Option<Manifold>,
+    domain: Domain,
+}
+
 /// The verdict of the points modulo the prime.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Residues {
@@ -127,6 +133,16 @@ impl ZeroTest {
         self.bound = Domain::default();
         let equations: Vec<_> = equations.iter().copied().filter(|e| !g.is_zero(*e)).collect();
         self.manifold = (!equations.is_empty()).then(|| Manifold::new(g, &mut self.table, &equations));
+    }
+
+    /// Takes the manifold out with all that was decided on it: none is left.
+    pub(crate) fn take_manifold(&mut self) -> FormerManifold {
+        FormerManifold { manifold: self.manifold.take(), domain: core::mem::take(&mut self.bound) }
+    }
+
+    /// Puts a manifold back in place of the present one.
+    pub(crate) fn return_to(&mut self, former: FormerManifold) {
+        (self.manifold, self.bound) = (former.manifold, former.domain);
     }
 
     /// Whether the manifold's points can be found, so that verdicts on it are possible.

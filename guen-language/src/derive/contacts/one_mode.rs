@@ -235,8 +235,7 @@ fn by_rate(
             continue;
         };
         equations.push(*gap);
-        bench.zero.set_manifold(&mut bench.graph, &equations);
-        let rank = bench.zero.rank(&mut bench.graph, rows, true);
+        let rank = bench.on_manifold(&equations, |bench| bench.zero.rank(&mut bench.graph, rows, true));
         let is_degenerate = rank.is_some_and(|rank| rank < rows.len());
         if is_degenerate {
             equations.pop();
