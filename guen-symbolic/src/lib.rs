@@ -21,18 +21,18 @@ mod workbench;
 mod zero;
 
 pub use algebra::{
-    Bound, ExprId, Flow, Function, Graph, MAX_ARGUMENTS, Multivariate, Node, PossibleSigns, PowerError,
-    Rational, Role, Roles, Substitution, SuppliedFunction, Symbol, SymbolId,
+    ExprId, Flow, Function, Graph, MAX_ARGUMENTS, Multivariate, Node, PossibleSigns, PowerError, Rational,
+    Role, Roles, SignBound, Substitution, SuppliedFunction, Symbol, SymbolId,
 };
 pub use geometry::{
     Brackets, Closure, Combination, Form, Forms, Operators, RateChoice, SingularForms, chosen_rates,
     independent_rows,
 };
 pub use motion::{
-    BodyNode, COUPLED_COORDINATES, Class, Component, Dependence, Derivation, DerivationError, Energies,
-    Equations, FirstOrderState, Force, FormShape, Formulated, Frame, FrameId, FrameNode, Holonomic,
-    KineticTerm, Mechanics, Motion, MotionSymbol, Multibody, NotQuadratic, Place, REFUTED, RigidBody,
-    Solution, SystemGraph, Turn, Velocity, VelocityForm, VelocityPartials, WRITTEN_OUT_PARAMETERS, decompose,
+    BodyNode, COUPLED_COORDINATES, Class, Dependence, Derivation, DerivationError, Energies, FirstOrderState,
+    Force, FormShape, Formulated, Frame, FrameId, FrameNode, Holonomic, KineticTerm, Mechanics, Motion,
+    MotionEquations, MotionSymbol, Multibody, NotQuadratic, Place, REFUTED, RigidBody, Solution, SystemGraph,
+    Turn, Velocity, VelocityComponent, VelocityForm, VelocityPartials, WRITTEN_OUT_PARAMETERS, decompose,
     elimination_text, equations_by_definition, formulation_names,
 };
 pub use normal::{Limits, normal_coefficients, normal_form};
@@ -41,7 +41,7 @@ pub use program::{
     Arithmetic, ArrayIndex, Arrays, Carried, CarriedFunction, Formulation, FunctionProgram, Instruction,
     LARGEST_DIFFERENTIATED, LARGEST_JACOBIAN, Line, Loop, NotAnalytic, NotCarried, Operand, Operation,
     OperationCount, Pattern, Places, ProgramBuilder, Programs, Rolled, RolledStep, SeriesProgram, SeriesStep,
-    Source, Start, Value, evaluate_function, evaluate_prepare, weighted_cost,
+    Start, SymbolInStep, Value, evaluate_function, evaluate_prepare, weighted_cost,
 };
 pub use workbench::{MAX_WORK, Workbench};
 pub use zero::{Real, Redundant, Verdict, ZeroTest, evaluate, evaluate_f64};

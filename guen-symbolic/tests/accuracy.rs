@@ -3,8 +3,8 @@
 
 use f256::f256;
 use guen_symbolic::{
-    Bound, Derivation, ExprId, Flow, Force, Form, Forms, Graph, Mechanics, ProgramBuilder, Role, Workbench,
-    evaluate, evaluate_function, evaluate_prepare,
+    Derivation, ExprId, Flow, Force, Form, Forms, Graph, Mechanics, ProgramBuilder, Role, SignBound,
+    Workbench, evaluate, evaluate_function, evaluate_prepare,
 };
 
 const LINKS: usize = 5;
@@ -18,7 +18,8 @@ fn chain(graph: &mut Graph, rotors: bool) -> (Mechanics, [ExprId; 3]) {
         (1..=LINKS).map(|i| graph.symbol(&format!("{letter}{i}"), role)).collect()
     };
     let time = graph.symbol("t", Role::Time);
-    let constants = ["m", "l", "g"].map(|name| graph.bounded_symbol(name, Role::Constant, Bound::Positive));
+    let constants =
+        ["m", "l", "g"].map(|name| graph.bounded_symbol(name, Role::Constant, SignBound::Positive));
     let [m, l, g] = constants;
     let x = symbols(graph, "q", Role::Coordinate);
     let velocities = symbols(graph, "v", Role::Velocity);

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 use std::{env, fs};
 
-use guen_language::derive::Derived;
+use guen_language::derive::DerivedSystem;
 use guen_language::derive::function::{MASS_FORM, MOMENTA, REACTIONS, RHS};
 use guen_symbolic::OperationCount;
 
@@ -12,7 +12,7 @@ use guen_symbolic::OperationCount;
 const LARGE: u32 = 200;
 
 /// What is derived from a declaration while the test runs.
-pub fn derived<T>(name: &str, text: &str, look: impl FnOnce(&Derived<'_>) -> T) -> T {
+pub fn derived<T>(name: &str, text: &str, look: impl FnOnce(&DerivedSystem<'_>) -> T) -> T {
     let (declaration, _) = guen_language::parse::parse(text.parse().unwrap());
     let declaration = declaration.unwrap();
     let (derived, report) = guen_language::diagnostics::collect(|faults| {

@@ -14,7 +14,7 @@ use crate::model::Model;
 use crate::syntax::{Name, Scene};
 
 /// A derived system with its scenes.
-pub struct Derived<'a> {
+pub struct DerivedSystem<'a> {
     /// The model.
     pub model: Model<'a>,
     /// The system itself.
@@ -22,7 +22,7 @@ pub struct Derived<'a> {
     /// The scenes, in order.
     pub scenes: Vec<DerivedLevel>,
     /// The scenes in a single mode of contacts, each by its place among the scenes and as the only scene of a system of its own.
-    pub in_modes: Vec<(usize, Derived<'a>)>,
+    pub in_modes: Vec<(usize, DerivedSystem<'a>)>,
 }
 
 /// A level of detail: the system itself, or a scene.

@@ -34,7 +34,7 @@ pub use brackets::commutator::Commutator;
 pub use contacts::branches::Branch;
 pub use contacts::{ContactFacts, Painleve, ResetFacts};
 pub(crate) use level::Subject;
-pub use level::{Derived, DerivedLevel, Series};
+pub use level::{DerivedLevel, DerivedSystem, Series};
 pub(crate) use quantities::control::{has_covector, known_combinations};
 pub use quantities::jacobians::Jacobians;
 pub use quantities::missing_bounds::MissingBounds;
@@ -43,7 +43,7 @@ pub use selections::facts::SceneFacts;
 pub use selections::selection::{Held, Selection, StateIndex, StatePart};
 
 /// Derives a checked model and its scenes; a system without equations of motion is reported.
-pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'a>> {
+pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<DerivedSystem<'a>> {
     let before = faults.count();
     friction::solve_loads(&mut model, faults)?;
     let derivation = match Derivation::new(&mut model.bench, model.mechanics.clone()) {
@@ -82,7 +82,7 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
     let in_modes = one_mode::derive(&mut model, &system, faults);
     let levels: Vec<&DerivedLevel> = std::iter::once(&system).chain(&scenes).collect();
     supplied::check(&model, &levels, faults);
-    (faults.count() == before).then_some(Derived { model, system, scenes, in_modes })
+    (faults.count() == before).then_some(DerivedSystem { model, system, scenes, in_modes })
 }
 
 /// The system itself, with everything that follows from its derivation.

@@ -6,7 +6,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::layouts::text::tokens;
-use crate::report::{ReportLines, Section};
+use crate::report::{ReportLines, SectionLines};
 use crate::syntax::Docs;
 
 /// The user's documentation of an entry, or a sentence in its place; with its unit, if it has one.
@@ -29,7 +29,7 @@ pub(super) fn reported(report: &ReportLines, docs: &Docs, is_whole: bool, item: 
     let blank = (!values.is_empty()).then(|| quote!(#[doc = ""]));
     let ReportLines { name, summary, sections } = report;
     let (mut all, mut formulas) = (String::new(), String::new());
-    for (i, Section { title, text, latex }) in sections.iter().enumerate() {
+    for (i, SectionLines { title, text, latex }) in sections.iter().enumerate() {
         let _ = write!(all, "{title:?}{}{}", list(text), list(latex));
         if !latex.is_empty() {
             let _ = write!(formulas, "{i} ");

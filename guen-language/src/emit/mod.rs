@@ -19,7 +19,7 @@ mod uses;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
-use crate::derive::{Derived, Subject};
+use crate::derive::{DerivedSystem, Subject};
 use crate::names::module_name;
 use crate::report::ReportLines;
 use contact_modes::contacts;
@@ -30,18 +30,18 @@ pub(crate) use structs::components::component;
 use structs::{components, constants, levels, limits, physical, records, serde};
 
 /// Emits a derived system with its scenes.
-pub fn emit(derived: Derived<'_>) -> TokenStream {
+pub fn emit(derived: DerivedSystem<'_>) -> TokenStream {
     items(&derived, false)
 }
 
 /// Emits the items of what stands in for a faulty declaration: without a report, and with every marker trait, because what
 /// is derived of it says nothing of the system that is meant.
-pub fn outline(derived: Derived<'_>) -> TokenStream {
+pub fn outline(derived: DerivedSystem<'_>) -> TokenStream {
     items(&derived, true)
 }
 
-fn items(derived: &Derived<'_>, is_outline: bool) -> TokenStream {
-    let Derived { model, system, .. } = derived;
+fn items(derived: &DerivedSystem<'_>, is_outline: bool) -> TokenStream {
+    let DerivedSystem { model, system, .. } = derived;
     let facade = facade(model.declaration);
     let whole = Subject { model, level: system, whole: model };
     let scenes = scenes(derived);
@@ -67,7 +67,7 @@ fn items(derived: &Derived<'_>, is_outline: bool) -> TokenStream {
 }
 
 /// The scenes in order.
-fn scenes<'d, 'a>(derived: &'d Derived<'a>) -> Vec<Subject<'d, 'a>> {
+fn scenes<'d, 'a>(derived: &'d DerivedSystem<'a>) -> Vec<Subject<'d, 'a>> {
     let whole = &derived.model;
     let of_whole = derived.scenes.iter().filter_map(|level| {
         let place = level.scene.as_ref()?.index;

@@ -21,7 +21,7 @@ pub struct Contacts<'a> {
 
 impl Contacts<'_> {
     /// All rows, contact by contact.
-    pub fn rows(&self) -> impl Iterator<Item = &Row> {
+    pub fn rows(&self) -> impl Iterator<Item = &ContactRow> {
         self.entries.iter().flat_map(|entry| &entry.rows)
     }
 
@@ -102,7 +102,7 @@ impl ContactState {
 
 /// A velocity of a contact, with the force along it.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct ContactRow {
     /// The velocity, affine in the velocities and quasi-velocities.
     pub form: ExprId,
     /// The symbol of the force.
@@ -124,7 +124,7 @@ pub struct ContactEntry<'a> {
     /// The places of the components of the slip or the grip as written, row by row.
     pub along_spans: Vec<Span>,
     /// The rows: that of the gap, then those of the slip.
-    pub rows: Vec<Row>,
+    pub rows: Vec<ContactRow>,
     /// The components of a slip that was written as a vector, row by row.
     pub axes: Vec<&'static str>,
     /// The coefficient of friction of a moving contact, with [`ContactEntry::speed`] in it.

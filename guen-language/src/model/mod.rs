@@ -32,7 +32,7 @@ use proc_macro2::{Ident, Span};
 
 use crate::syntax::{BoundKind, Declaration, Docs, Name, Scene, SuppliedFunction};
 
-pub use contact::{ContactEntry, ContactKind, ContactState, Contacts, Row, SwitchEntry};
+pub use contact::{ContactEntry, ContactKind, ContactRow, ContactState, Contacts, SwitchEntry};
 pub(crate) use dimensions::check as check_dimensions;
 pub use dimensions::{Units, momentum, reaction, residual};
 pub use rates::ChosenRates;

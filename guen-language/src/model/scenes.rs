@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use guen_symbolic::{Bound, ExprId, Substitution};
+use guen_symbolic::{ExprId, SignBound, Substitution};
 
 use super::evaluate::Evaluator;
 use super::expression_place::ExpressionPlace;
@@ -221,9 +221,9 @@ impl Evaluator<'_> {
             let Some(symbol) = graph.as_symbol(fix.symbol) else { continue };
             let Some(number) = graph.as_number(fix.value) else { continue };
             let broken = match graph.symbol_info(symbol).bound {
-                Bound::Positive => (number.is_negative() || number.is_zero()).then_some("> 0"),
-                Bound::NonNegative => number.is_negative().then_some(">= 0"),
-                Bound::NonZero => number.is_zero().then_some("!= 0"),
+                SignBound::Positive => (number.is_negative() || number.is_zero()).then_some("> 0"),
+                SignBound::NonNegative => number.is_negative().then_some(">= 0"),
+                SignBound::NonZero => number.is_zero().then_some("!= 0"),
                 _ => None,
             };
             if let Some(bound) = broken {

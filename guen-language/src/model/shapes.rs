@@ -7,8 +7,8 @@
 use std::collections::BTreeMap;
 
 use guen_symbolic::{
-    Component, ExprId, FormShape, FrameId, Graph, Motion, Node, Place, Role, Roles, SystemGraph, Turn,
-    Velocity,
+    ExprId, FormShape, FrameId, Graph, Motion, Node, Place, Role, Roles, SystemGraph, Turn, Velocity,
+    VelocityComponent,
 };
 
 use super::value::{Rotation, Value, Vector};
@@ -107,7 +107,7 @@ impl Shapes {
         }
         let velocity = self.velocities.get(v)?.clone();
         let direction = Place::in_axes(graph, FrameId::WORLD, axis(graph, i));
-        Some(FormShape { components: vec![Component { direction, velocity }], rest: graph.zero() })
+        Some(FormShape { components: vec![VelocityComponent { direction, velocity }], rest: graph.zero() })
     }
 
     fn form_or_rest(&self, e: ExprId) -> FormShape {
@@ -129,7 +129,7 @@ impl Shapes {
         }
         for (i, e) in r.body_rate.into_iter().enumerate() {
             let direction = Place::in_axes(graph, r.frame, axis(graph, i));
-            let components = vec![Component { direction, velocity: spin.clone() }];
+            let components = vec![VelocityComponent { direction, velocity: spin.clone() }];
             if graph.roles(e).meets(MOVING) {
                 self.remember_form(graph, e, FormShape { components, rest: graph.zero() });
             }
@@ -182,7 +182,7 @@ impl Shapes {
         let Some(velocity) = self.velocities.get(v).cloned() else { return };
         for (row, e) in r.matrix.iter().zip(turned) {
             let components =
-                vec![Component { direction: self.place(graph, row), velocity: velocity.clone() }];
+                vec![VelocityComponent { direction: self.place(graph, row), velocity: velocity.clone() }];
             self.remember_form(graph, e, FormShape { components, rest: graph.zero() });
         }
     }
@@ -218,7 +218,7 @@ impl Shapes {
             _ => return,
         };
         let Some(velocity) = self.velocities.get(velocity).cloned() else { return };
-        let components = vec![Component { direction: self.place(graph, direction), velocity }];
+        let components = vec![VelocityComponent { direction: self.place(graph, direction), velocity }];
         self.remember_form(graph, product, FormShape { components, rest: graph.zero() });
     }
 
@@ -249,7 +249,7 @@ impl Shapes {
         if let Some((i, place)) = self.heights.get(&e) {
             let direction = Place::in_axes(graph, FrameId::WORLD, axis(graph, *i));
             let velocity = Velocity::of(graph, Motion::Rate(place.clone()));
-            let components = vec![Component { direction, velocity }];
+            let components = vec![VelocityComponent { direction, velocity }];
             self.remember_form(graph, rate, FormShape { components, rest: graph.zero() });
         }
     }

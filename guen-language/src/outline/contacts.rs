@@ -11,8 +11,8 @@ use super::{Names, section};
 use crate::limits::MAX_CONTACTS;
 use crate::names::is_function;
 use crate::syntax::{
-    Assignment, Clause, ClauseWord, Contact, Declaration, Expression, Item, ModeStatement, Name, Plain,
-    Reset, Switch, type_of_states,
+    Clause, ClauseWord, Contact, Declaration, Expression, Item, ModeStatement, Name, Plain, Reset,
+    ResetAssignment, Switch, type_of_states,
 };
 
 /// The sections of contacts, along a coordinate that moves and another one.
@@ -41,7 +41,7 @@ pub(super) fn items(
             Item::Resets(section) => {
                 for reset in &section.entries {
                     if resets.iter().all(|known| known.name.text != reset.name.text) {
-                        let given = Assignment {
+                        let given = ResetAssignment {
                             variable: value(moving),
                             equals: Span::call_site(),
                             value: number(0),

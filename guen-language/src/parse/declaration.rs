@@ -18,8 +18,8 @@ use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_COORDINATES, MAX_ENTRIES, MAX_SCENES, MAX_TOKENS};
 use crate::names::{PARAMETER_ALIASES, SECTIONS, instead_of_section, nearest_section, quoted};
 use crate::syntax::{
-    Component, Count, Declaration, Docs, IndexExpression, IndexKind, Item, Name, Node, Section, SectionKind,
-    Visibility,
+    Component, Count, Declaration, Docs, EntryNode, IndexExpression, IndexKind, Item, Name, Section,
+    SectionKind, Visibility,
 };
 
 const HELP_SYSTEM: &str = "a declaration reads `pub system Name { .. }`";
@@ -223,7 +223,12 @@ struct Progress {
 }
 
 /// Reads what the braces of a system or component hold.
-pub(crate) fn items(group: &Group, faults: &mut Faults, name: &Name, owner: Owner) -> (Vec<Item>, Vec<Node>) {
+pub(crate) fn items(
+    group: &Group,
+    faults: &mut Faults,
+    name: &Name,
+    owner: Owner,
+) -> (Vec<Item>, Vec<EntryNode>) {
     let mut progress = Progress {
         owner,
         items: Entries::new(),

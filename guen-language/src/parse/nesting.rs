@@ -7,7 +7,7 @@ use super::index::{condition, range};
 use super::names::name;
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_BRANCHES, MAX_NESTED_LOOPS};
-use crate::syntax::{Condition, Conditional, Docs, Loop, Node, Section};
+use crate::syntax::{Condition, Conditional, Docs, EntryNode, Loop, Section};
 
 const HELP_LOOP: &str = "a loop reads `for i in 0..n { .. }`";
 const HELP_CHOICE: &str = "a choice reads `if i < k { .. } else { .. }`";
@@ -15,7 +15,7 @@ const HELP_CHOICE: &str = "a choice reads `if i < k { .. } else { .. }`";
 /// Entries, and their order where loops and conditions stand between them.
 pub(crate) struct Entries<T> {
     pub(crate) list: Vec<T>,
-    nodes: Vec<Node>,
+    nodes: Vec<EntryNode>,
     has_blocks: bool,
     depth: usize,
 }
@@ -26,7 +26,7 @@ impl<T> Entries<T> {
     }
 
     pub(crate) fn push(&mut self, entry: T) {
-        self.nodes.push(Node::Entry(self.list.len()));
+        self.nodes.push(EntryNode::Entry(self.list.len()));
         self.list.push(entry);
     }
 
@@ -36,7 +36,7 @@ impl<T> Entries<T> {
     }
 
     /// The order of the entries; none where they stand one behind the other.
-    pub(crate) fn nesting(self) -> (Vec<T>, Vec<Node>) {
+    pub(crate) fn nesting(self) -> (Vec<T>, Vec<EntryNode>) {
         (self.list, if self.has_blocks { self.nodes } else { Vec::new() })
     }
 
@@ -68,9 +68,9 @@ impl<T> Entries<T> {
         }
         let node = if is_loop {
             self.repeated(cursor, faults, read)
-                .map(|(variable, range, body)| Node::For(Loop { keyword, variable, range, body }))
+                .map(|(variable, range, body)| EntryNode::For(Loop { keyword, variable, range, body }))
         } else {
-            self.choice(cursor, faults, read).map(Node::If)
+            self.choice(cursor, faults, read).map(EntryNode::If)
         };
         match node {
             Ok(node) => self.nodes.push(node),
@@ -84,7 +84,7 @@ impl<T> Entries<T> {
         cursor: &mut Cursor,
         faults: &mut Faults,
         read: &mut dyn FnMut(&Group, &mut Faults, &mut Self),
-    ) -> Result<(crate::syntax::Name, crate::syntax::Range, Vec<Node>), Reported> {
+    ) -> Result<(crate::syntax::Name, crate::syntax::Range, Vec<EntryNode>), Reported> {
         let variable = name(cursor, faults, "a loop variable")?;
         if cursor.eat_word("in").is_none() {
             let fault = Fault::new(cursor.span(), format!("expected `in`, found {}", cursor.found()));
@@ -119,7 +119,7 @@ impl<T> Entries<T> {
         Ok(branches.into_iter().rev().fold(last, |inner, (condition, then)| Conditional {
             condition,
             then,
-            otherwise: vec![Node::If(inner)],
+            otherwise: vec![EntryNode::If(inner)],
         }))
     }
 
@@ -129,7 +129,7 @@ impl<T> Entries<T> {
         cursor: &mut Cursor,
         faults: &mut Faults,
         read: &mut dyn FnMut(&Group, &mut Faults, &mut Self),
-    ) -> Result<(Condition, Vec<Node>), Reported> {
+    ) -> Result<(Condition, Vec<EntryNode>), Reported> {
         let condition = condition(cursor, faults).unwrap_or_else(|Reported { .. }| {
             while !cursor.is_end() && cursor.group_at(0, Delimiter::Brace).is_none() {
                 cursor.skip(1);
@@ -146,7 +146,7 @@ impl<T> Entries<T> {
         faults: &mut Faults,
         help: &str,
         read: &mut dyn FnMut(&Group, &mut Faults, &mut Self),
-    ) -> Result<Vec<Node>, Reported> {
+    ) -> Result<Vec<EntryNode>, Reported> {
         let Some(group) = cursor.eat_group(Delimiter::Brace) else {
             let fault = Fault::new(cursor.span(), format!("expected `{{`, found {}", cursor.found()));
             return Err(faults.report(fault.help(help)));

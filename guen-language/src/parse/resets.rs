@@ -11,7 +11,7 @@ use super::nesting::Entries;
 use super::punctuation::{begins_equation, colon, equals, semicolon};
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::MAX_ENTRIES;
-use crate::syntax::{Assignment, Crossing, Expression, Reset};
+use crate::syntax::{Crossing, Expression, Reset, ResetAssignment};
 
 const HELP: &str = "a reset reads `name: e rises, variable = value;`, or `falls`";
 
@@ -67,7 +67,7 @@ fn crossing(cursor: &mut Cursor, faults: &mut Faults) -> Crossing {
 }
 
 /// `variable = e`.
-fn assignment(cursor: &mut Cursor, faults: &mut Faults) -> Result<Assignment, Reported> {
+fn assignment(cursor: &mut Cursor, faults: &mut Faults) -> Result<ResetAssignment, Reported> {
     let start = cursor.span();
     let length = cursor.name_length();
     let adds = ['+', '-', '*', '/']
@@ -86,7 +86,7 @@ fn assignment(cursor: &mut Cursor, faults: &mut Faults) -> Result<Assignment, Re
         skip_to_comma(cursor);
         Expression::missing(start)
     });
-    Ok(Assignment { variable, equals, value })
+    Ok(ResetAssignment { variable, equals, value })
 }
 
 fn ends(cursor: &Cursor) -> bool {

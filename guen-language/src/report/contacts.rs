@@ -1,6 +1,6 @@
 //! Contacts in the report: rows, the Delassus matrix, modes, and whether a slip may have Painlevé's paradox.
 
-use super::lines::{Lines, Section, Writer, plural};
+use super::lines::{Lines, SectionLines, Writer, plural};
 use crate::derive::{ContactFacts, Painleve, Subject};
 use crate::model::{ContactEntry, ContactKind, ContactState, Contacts};
 
@@ -8,7 +8,7 @@ use crate::model::{ContactEntry, ContactKind, ContactState, Contacts};
 const LONGEST_ENTRY: usize = 300;
 
 /// Contacts and what was derived of them; nothing where there are none.
-pub(super) fn section(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Option<Section> {
+pub(super) fn section(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Option<SectionLines> {
     let (contacts, facts) = (subject.model.contacts.as_ref()?, subject.level.contacts.as_ref()?);
     let graph = &subject.model.bench.graph;
     let mut lines = Lines::new(writer, "Contacts");

@@ -4,7 +4,7 @@ use guen_symbolic::{Class, ExprId, Notation};
 
 /// A heading with its lines: formulas, then words.
 #[derive(Clone)]
-pub struct Section {
+pub struct SectionLines {
     /// The heading of the lines.
     pub title: &'static str,
     /// The lines as text.
@@ -13,10 +13,10 @@ pub struct Section {
     pub latex: Vec<String>,
 }
 
-impl Section {
+impl SectionLines {
     /// Lines that are no formulas.
     pub(super) fn words(title: &'static str, text: Vec<String>) -> Self {
-        Section { title, text, latex: Vec::new() }
+        SectionLines { title, text, latex: Vec::new() }
     }
 }
 
@@ -27,7 +27,7 @@ pub struct ReportLines {
     /// A sentence that sums up the system.
     pub summary: String,
     /// The sections, in order.
-    pub sections: Vec<Section>,
+    pub sections: Vec<SectionLines>,
 }
 
 impl ReportLines {
@@ -55,12 +55,12 @@ pub(super) struct Writer<'g> {
 /// Lines that are formulas, written twice.
 pub(super) struct Lines<'w, 'g> {
     pub(super) writer: &'w mut Writer<'g>,
-    pub(super) section: Section,
+    pub(super) section: SectionLines,
 }
 
 impl<'w, 'g> Lines<'w, 'g> {
     pub(super) fn new(writer: &'w mut Writer<'g>, title: &'static str) -> Self {
-        Lines { writer, section: Section { title, text: Vec::new(), latex: Vec::new() } }
+        Lines { writer, section: SectionLines { title, text: Vec::new(), latex: Vec::new() } }
     }
 
     /// `name = right`, of a symbol or of its rate.

@@ -10,7 +10,7 @@ mod scene;
 
 pub(crate) use contacts::row_name;
 pub(crate) use interface::interface;
-pub use lines::{ReportLines, Section};
+pub use lines::{ReportLines, SectionLines};
 pub(crate) use pages::page;
 pub use pages::set;
 
@@ -38,9 +38,9 @@ impl ReportLines {
         ReportLines::of_part(model, level, model)
     }
 
-    /// Writes down what was derived of a scene whose mode makes it a part of another system, as [`Derived::in_modes`] has it.
+    /// Writes down what was derived of a scene whose mode makes it a part of another system, as [`DerivedSystem::in_modes`] has it.
     ///
-    /// [`Derived::in_modes`]: crate::derive::Derived::in_modes
+    /// [`DerivedSystem::in_modes`]: crate::derive::DerivedSystem::in_modes
     pub fn of_part(model: &Model<'_>, level: &DerivedLevel, whole: &Model<'_>) -> Self {
         ReportLines::new(&Subject { model, level, whole })
     }
@@ -57,7 +57,7 @@ impl ReportLines {
             text: Notation::text(graph, characters).of_images(shown),
             latex: Notation::latex(graph, characters).of_images(shown),
         };
-        let operators = |lines: &mut Vec<Section>, writer: &mut Writer<'_>| {
+        let operators = |lines: &mut Vec<SectionLines>, writer: &mut Writer<'_>| {
             lines.push(self::operators(subject, writer));
             lines.push(self::brackets(subject, writer));
         };
@@ -90,7 +90,7 @@ impl ReportLines {
         sections.push(cost(subject));
         let summary = if subject.level.scene.is_some() { scene::summary(subject) } else { summary(subject) };
         if is_long {
-            sections.iter_mut().for_each(Section::shorten);
+            sections.iter_mut().for_each(SectionLines::shorten);
         }
         let name = subject.name().text.clone();
         ReportLines { name, summary, sections: sections.into_iter().filter(|s| !s.text.is_empty()).collect() }
@@ -109,7 +109,7 @@ impl ReportLines {
     }
 }
 
-impl Section {
+impl SectionLines {
     /// Cuts a section behind its first lines, and says how many more there are.
     fn shorten(&mut self) {
         let left_out = |lines: &mut Vec<String>, note: fn(usize) -> String| {
@@ -140,7 +140,7 @@ fn summary(subject: &Subject<'_, '_>) -> String {
     )
 }
 
-fn forms(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+fn forms(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> SectionLines {
     let graph = &subject.model.bench.graph;
     let mut lines = Lines::new(writer, "Forms (1.1), (1.6)");
     let system = &subject.level.derivation.system;
@@ -230,7 +230,7 @@ fn beside(model: &Model<'_>, redundant: &RedundantEntry<'_>) -> String {
     if names.is_empty() { "the others".to_owned() } else { listed(&names) }
 }
 
-fn operators(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+fn operators(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> SectionLines {
     let graph = &subject.model.bench.graph;
     let mut lines = Lines::new(writer, "Operators of displacement (1.4), (1.7)");
     for (j, xi) in subject.level.derivation.frame.operators.xi.iter().enumerate() {
@@ -248,7 +248,7 @@ fn operators(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     lines.section
 }
 
-fn brackets(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+fn brackets(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> SectionLines {
     let graph = &subject.model.bench.graph;
     let last = subject.model.last_operator();
     let mut found: Vec<(usize, usize, Terms)> = Vec::new();
@@ -283,7 +283,7 @@ fn brackets(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     lines.section
 }
 
-fn classification(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+fn classification(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> SectionLines {
     let d = &subject.level.derivation;
     let (n, l) = (subject.model.coordinates.len(), d.system.forms.degrees);
     let mut text = Vec::new();
@@ -330,7 +330,7 @@ fn classification(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section
     );
     text.extend(reasons::of(subject));
     text.extend(in_c(subject.level));
-    Section::words("Classification", text)
+    SectionLines::words("Classification", text)
 }
 
 /// The steppers that the text of C does not have, and why.
@@ -350,7 +350,7 @@ fn in_c(level: &DerivedLevel) -> Option<String> {
     })
 }
 
-fn velocities(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+fn velocities(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> SectionLines {
     let mut lines = Lines::new(writer, "Velocities (1.8)");
     let system = &subject.level.derivation.system;
     for (x, value) in system.velocities.iter().zip(&subject.level.derivation.frame.velocities) {
@@ -360,8 +360,9 @@ fn velocities(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     lines.section
 }
 
-fn equations(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
-    let mut section = Section { title: "Equations of motion (2.7)", text: Vec::new(), latex: Vec::new() };
+fn equations(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> SectionLines {
+    let mut section =
+        SectionLines { title: "Equations of motion (2.7)", text: Vec::new(), latex: Vec::new() };
     if !subject.level.derivation.is_written_out() {
         let l = subject.level.derivation.system.forms.degrees;
         section.text.push(format!(
@@ -386,7 +387,7 @@ fn equations(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
 }
 
 /// The rates of the states beside the motion.
-fn states(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+fn states(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> SectionLines {
     let Subject { model, level, .. } = subject;
     let mut lines = Lines::new(writer, "Rates of the states");
     let first = level.rates.len() - model.states.len();
@@ -396,7 +397,7 @@ fn states(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     lines.section
 }
 
-fn momenta(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+fn momenta(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> SectionLines {
     let mut lines = Lines::new(writer, "Momenta (2.8)");
     let l = subject.level.derivation.system.forms.degrees;
     let mut unknown = Vec::new();
@@ -419,7 +420,7 @@ fn momenta(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     lines.section
 }
 
-fn energies(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+fn energies(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> SectionLines {
     let mut lines = Lines::new(writer, "Energies");
     let d = &subject.level.derivation;
     lines.equation("T", "T", d.energies.kinetic);
@@ -432,7 +433,7 @@ fn energies(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
 }
 
 /// The functions that must not vanish: formulas, then those that are told in words.
-fn domain(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+fn domain(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> SectionLines {
     let (mut formulas, mut words) = (Vec::new(), Vec::new());
     for (e, name) in subject.level.domain.iter().zip(&subject.level.domain_names) {
         match writer.text.expression(*e) {
@@ -440,7 +441,7 @@ fn domain(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
             _ => words.push(format!("{name} != 0")),
         }
     }
-    let mut section = Section::words("Domain of the chart", Vec::new());
+    let mut section = SectionLines::words("Domain of the chart", Vec::new());
     for e in formulas.iter().chain(&subject.level.constant_pivots) {
         if let (Some(text), Some(latex)) = (writer.text.expression(*e), writer.latex.expression(*e)) {
             section.text.push(format!("{text} != 0"));
@@ -457,12 +458,15 @@ fn domain(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
 }
 
 /// The section on the edges of the chart: the origin of each function, and the states at which it vanishes.
-fn edges(subject: &Subject<'_, '_>) -> Section {
+fn edges(subject: &Subject<'_, '_>) -> SectionLines {
     let edges = subject.level.domain_names.iter().zip(&subject.level.domain_reasons);
-    Section::words("Edges of the chart", edges.map(|(name, reason)| format!("`{name}`: {reason}")).collect())
+    SectionLines::words(
+        "Edges of the chart",
+        edges.map(|(name, reason)| format!("`{name}`: {reason}")).collect(),
+    )
 }
 
-fn cost(subject: &Subject<'_, '_>) -> Section {
+fn cost(subject: &Subject<'_, '_>) -> SectionLines {
     let mut text = Vec::new();
     if let Some(rhs) = subject.level.program(function::RHS) {
         text.push(format!("right-hand side: {}", operations(&rhs.cost)));
@@ -475,7 +479,7 @@ fn cost(subject: &Subject<'_, '_>) -> Section {
         });
         text.push(format!("declare {}: {saved}", constants.join(", ")));
     }
-    Section::words("Cost", text)
+    SectionLines::words("Cost", text)
 }
 
 fn operations(count: &guen_symbolic::OperationCount) -> String {

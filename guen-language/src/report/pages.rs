@@ -1,13 +1,13 @@
 //! The declaration in words, and the page of rustdoc.
 
-use super::lines::{ReportLines, Section};
+use super::lines::{ReportLines, SectionLines};
 use super::mathml::paragraph;
 use crate::derive::Subject;
 use crate::model::{SymbolEntry, momentum, reaction};
 use crate::syntax::{Docs, Item};
 
 /// Constants as they are declared, coordinates and inputs, each with the first line of its documentation.
-pub(super) fn declared(subject: &Subject<'_, '_>) -> Vec<Section> {
+pub(super) fn declared(subject: &Subject<'_, '_>) -> Vec<SectionLines> {
     let model = subject.model;
     let line = |name: &str, docs: &Docs| {
         // Documentation that a macro writes is not known here.
@@ -56,13 +56,13 @@ pub(super) fn declared(subject: &Subject<'_, '_>) -> Vec<Section> {
     let of_forms = momenta.chain(reactions).filter(|name| model.units.contains_key(name));
     let of_forms: Vec<String> = of_forms.map(|name| format!("{name}{}", unit(&name))).collect();
     vec![
-        Section::words("Constants", constants),
-        Section::words("Functions of the program", functions.collect()),
-        Section::words("Coordinates", symbols(&model.coordinates)),
-        Section::words("Inputs", symbols(&model.inputs)),
-        Section::words("States", symbols(&model.states)),
-        Section::words("Units that follow", derived),
-        Section::words("Units of momenta and reactions", of_forms),
+        SectionLines::words("Constants", constants),
+        SectionLines::words("Functions of the program", functions.collect()),
+        SectionLines::words("Coordinates", symbols(&model.coordinates)),
+        SectionLines::words("Inputs", symbols(&model.inputs)),
+        SectionLines::words("States", symbols(&model.states)),
+        SectionLines::words("Units that follow", derived),
+        SectionLines::words("Units of momenta and reactions", of_forms),
     ]
 }
 

@@ -1,6 +1,6 @@
 //! The report of a scene: what it keeps and why, what left, and its rates.
 
-use super::lines::{Lines, Section, Writer, class_name, plural};
+use super::lines::{Lines, SectionLines, Writer, class_name, plural};
 use crate::derive::Subject;
 use crate::derive::{Reason, SceneFacts, StateIndex};
 use crate::names::quoted;
@@ -21,7 +21,7 @@ pub(super) fn summary(subject: &Subject<'_, '_>) -> String {
 }
 
 /// Returns the sections on kept, dropped and fixed variables, each with its reason.
-pub(super) fn sections(subject: &Subject<'_, '_>) -> Vec<Section> {
+pub(super) fn sections(subject: &Subject<'_, '_>) -> Vec<SectionLines> {
     let Subject { model, level, .. } = subject;
     let facts = facts(subject);
     let name = |place: StateIndex| model.variable_name(place);
@@ -61,10 +61,10 @@ pub(super) fn sections(subject: &Subject<'_, '_>) -> Vec<Section> {
     let fixed =
         facts.fixes.iter().map(|(c, value)| format!("{} = {}", model.constants[*c].name, graph.text(*value)));
     vec![
-        Section::words("Mode", mode(subject)),
-        Section::words("Variables that are kept", kept.collect()),
-        Section::words("Variables that left", left.collect()),
-        Section::words("Constants that are fixed", fixed.collect()),
+        SectionLines::words("Mode", mode(subject)),
+        SectionLines::words("Variables that are kept", kept.collect()),
+        SectionLines::words("Variables that left", left.collect()),
+        SectionLines::words("Constants that are fixed", fixed.collect()),
     ]
 }
 
@@ -96,7 +96,7 @@ fn mode(subject: &Subject<'_, '_>) -> Vec<String> {
 }
 
 /// The rates of the kept variables.
-pub(super) fn rates(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+pub(super) fn rates(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> SectionLines {
     let Subject { model, level, .. } = subject;
     let mut lines = Lines::new(writer, "Rates");
     for (place, rate) in level.selection.variables.iter().zip(&level.rates) {
@@ -111,7 +111,7 @@ pub(super) fn rates(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Secti
 }
 
 /// The energy integral.
-pub(super) fn energy(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+pub(super) fn energy(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> SectionLines {
     let mut lines = Lines::new(writer, "Energies");
     lines.equation("h", "h", subject.level.energy);
     lines.section

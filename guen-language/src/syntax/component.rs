@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use proc_macro2::{Span, TokenStream};
 
-use super::{Declaration, Docs, Expression, Item, Name, Node, Path, Visibility};
+use super::{Declaration, Docs, EntryNode, Expression, Item, Name, Path, Visibility};
 use crate::names::{CARRIED_ITEMS, MODES, is_generated_item, module_name};
 
 /// `component Name(a: scalar, ..) { sections }`.
@@ -23,7 +23,7 @@ pub struct Component {
     /// Sections and definitions, in the order in which they were written.
     pub items: Vec<Item>,
     /// The order of the items, where loops and conditions stand between them; empty where there are none.
-    pub nesting: Vec<Node>,
+    pub nesting: Vec<EntryNode>,
     /// The components that it uses and does not declare itself.
     pub imported: Vec<Imported>,
 }

@@ -153,7 +153,7 @@ pub struct Reset {
     /// The direction in which the function goes through zero.
     pub crossing: Crossing,
     /// The new values.
-    pub assignments: Vec<Assignment>,
+    pub assignments: Vec<ResetAssignment>,
 }
 
 impl Reset {
@@ -192,7 +192,7 @@ impl Crossing {
 
 /// `variable = e` of a reset.
 #[derive(Debug, Clone)]
-pub struct Assignment {
+pub struct ResetAssignment {
     /// The variable, a name.
     pub variable: Expression,
     /// Place of the `=`.
@@ -222,7 +222,7 @@ pub enum ModeStatement {
 
 /// The mode of a declaration that is another one in a single mode.
 #[derive(Debug, Clone, Default)]
-pub struct InMode {
+pub struct SingleMode {
     /// Contact by contact, the equations that hold in the mode.
     pub contacts: Vec<HeldContact>,
     /// The parameters of the other declaration that are none here: they follow from those that are left.

@@ -118,19 +118,24 @@ impl Display for Condition {
 }
 
 /// The entries of a list in their loops and conditions.
-fn nested<T: Display>(f: &mut Formatter<'_>, nodes: &[Node], entries: &[T], separator: &str) -> fmt::Result {
+fn nested<T: Display>(
+    f: &mut Formatter<'_>,
+    nodes: &[EntryNode],
+    entries: &[T],
+    separator: &str,
+) -> fmt::Result {
     for (i, node) in nodes.iter().enumerate() {
         if i > 0 {
             f.write_str(separator)?;
         }
         match node {
-            Node::Entry(place) => write!(f, "{}", entries[*place])?,
-            Node::For(Loop { variable, range, body, .. }) => {
+            EntryNode::Entry(place) => write!(f, "{}", entries[*place])?,
+            EntryNode::For(Loop { variable, range, body, .. }) => {
                 write!(f, "for {} in {range} {{ ", variable.ident)?;
                 nested(f, body, entries, separator)?;
                 f.write_str(" }")?;
             }
-            Node::If(Conditional { condition, then, otherwise }) => {
+            EntryNode::If(Conditional { condition, then, otherwise }) => {
                 write!(f, "if {condition} {{ ")?;
                 nested(f, then, entries, separator)?;
                 f.write_str(" }")?;

@@ -146,7 +146,7 @@ pub enum Step {
 
 /// The order of the entries of a section, where loops and conditions stand between them.
 #[derive(Debug, Clone)]
-pub enum Node {
+pub enum EntryNode {
     /// The entry of this place in the list.
     Entry(usize),
     /// `for i in 0..n { .. }`.
@@ -165,7 +165,7 @@ pub struct Loop {
     /// The numbers that it runs through.
     pub range: Range,
     /// The entries inside.
-    pub body: Vec<Node>,
+    pub body: Vec<EntryNode>,
 }
 
 /// `if condition { then } else { otherwise }`.
@@ -174,9 +174,9 @@ pub struct Conditional {
     /// The condition.
     pub condition: Condition,
     /// The entries where it holds.
-    pub then: Vec<Node>,
+    pub then: Vec<EntryNode>,
     /// The entries where it does not.
-    pub otherwise: Vec<Node>,
+    pub otherwise: Vec<EntryNode>,
 }
 
 impl Path {

@@ -23,14 +23,14 @@ pub use component::{
     Use, undeclared_components,
 };
 pub use contact::{
-    Assignment, Clause, ClauseWord, Contact, Crossing, HeldContact, InMode, ModeStatement, Reset, SPEED,
-    SlipDirection, StatesType, Switch, type_of_states,
+    Clause, ClauseWord, Contact, Crossing, HeldContact, ModeStatement, Reset, ResetAssignment, SPEED,
+    SingleMode, SlipDirection, StatesType, Switch, type_of_states,
 };
 pub use digest::digest_of;
 pub use expression::{AddOperator, Expression, ExpressionKind, Factor, Fold, MultiplyOperator, Order, Term};
 pub use index::{
-    Comparison, Condition, Conditional, Index, IndexExpression, IndexKind, IndexOperator, Loop, Node, Path,
-    Range, Step, WrittenIndex, WrittenMember,
+    Comparison, Condition, Conditional, EntryNode, Index, IndexExpression, IndexKind, IndexOperator, Loop,
+    Path, Range, Step, WrittenIndex, WrittenMember,
 };
 pub use name::{Docs, Name, Visibility};
 pub use number::{Number, NumberProblem};

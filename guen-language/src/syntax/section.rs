@@ -6,8 +6,8 @@ use std::rc::Rc;
 use proc_macro2::{Span, TokenStream};
 
 use super::{
-    Argument, Component, Contact, Docs, Expression, Imported, InMode, IndexExpression, Instance,
-    ModeStatement, Name, Node, Reset, Switch, Unit, Use, Visibility,
+    Argument, Component, Contact, Docs, EntryNode, Expression, Imported, IndexExpression, Instance,
+    ModeStatement, Name, Reset, SingleMode, Switch, Unit, Use, Visibility,
 };
 
 /// A declaration: one `system` with its sections.
@@ -26,7 +26,7 @@ pub struct Declaration {
     /// Sections, definitions and scenes, in the order in which they were written: a name is declared before use.
     pub items: Vec<Item>,
     /// The order of the items, where loops and conditions stand between them; empty where there are none.
-    pub nesting: Vec<Node>,
+    pub nesting: Vec<EntryNode>,
     /// The counts, once they are known, each with whether anything uses it.
     pub counts: Vec<(Name, bool)>,
     /// The components that it uses and does not declare itself.
@@ -38,7 +38,7 @@ pub struct Declaration {
     /// The instance that each item comes from, as a place in `instances`; empty where there are none.
     pub origins: Vec<Option<usize>>,
     /// The mode that all contacts stay in; of the declaration of one mode of another declaration.
-    pub in_mode: Option<InMode>,
+    pub in_mode: Option<SingleMode>,
     /// Whether it stands in for a faulty declaration.
     pub is_outline: bool,
     /// The declarations of the modes to which scenes are restricted.
@@ -221,7 +221,7 @@ pub struct Section<T> {
     /// The entries of the section.
     pub entries: Vec<T>,
     /// The order of the entries, where loops and conditions stand between them; empty where there are none.
-    pub nesting: Vec<Node>,
+    pub nesting: Vec<EntryNode>,
 }
 
 impl<T> Section<T> {
@@ -462,7 +462,7 @@ pub struct Scene {
     /// The statements as written where loops and conditions stand between them. There is none left once loops are unfolded.
     pub statements: Vec<SceneStatement>,
     /// The order of the statements; empty where there are no loops and conditions.
-    pub nesting: Vec<Node>,
+    pub nesting: Vec<EntryNode>,
 }
 
 /// A statement of a scene.

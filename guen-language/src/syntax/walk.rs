@@ -1,10 +1,10 @@
 //! The names and expressions of an item, whatever its kind.
 
-use super::{Body, Expression, ExpressionKind, Inertia, Item, ModeStatement, Name, Node, Reset};
+use super::{Body, EntryNode, Expression, ExpressionKind, Inertia, Item, ModeStatement, Name, Reset};
 
 impl Item {
     /// The loops and choices around the entries of the item.
-    pub fn nesting(&self) -> &[Node] {
+    pub fn nesting(&self) -> &[EntryNode] {
         match self {
             Item::Constants(section) => &section.nesting,
             Item::Functions(section) => &section.nesting,

@@ -7,8 +7,8 @@ use proc_macro2::Span;
 
 use crate::diagnostics::{Fault, Faults};
 use crate::syntax::{
-    Component, Condition, Conditional, Expression, ExpressionKind, Index, IndexExpression, IndexKind, Item,
-    Loop, Node, Range,
+    Component, Condition, Conditional, EntryNode, Expression, ExpressionKind, Index, IndexExpression,
+    IndexKind, Item, Loop, Range,
 };
 
 /// Reports constants, and instances with constants of their own, whose number or value depends on a count that a use gives.
@@ -95,23 +95,23 @@ impl Given<'_> {
     }
 
     /// The first loop or choice that depends on a count, with an entry in it that is meant.
-    fn nodes(&self, nodes: &[Node], is_meant: &dyn Fn(usize) -> bool) -> Option<Span> {
-        fn has(nodes: &[Node], is_meant: &dyn Fn(usize) -> bool) -> bool {
+    fn nodes(&self, nodes: &[EntryNode], is_meant: &dyn Fn(usize) -> bool) -> Option<Span> {
+        fn has(nodes: &[EntryNode], is_meant: &dyn Fn(usize) -> bool) -> bool {
             nodes.iter().any(|node| match node {
-                Node::Entry(entry) => is_meant(*entry),
-                Node::For(Loop { body, .. }) => has(body, is_meant),
-                Node::If(Conditional { then, otherwise, .. }) => {
+                EntryNode::Entry(entry) => is_meant(*entry),
+                EntryNode::For(Loop { body, .. }) => has(body, is_meant),
+                EntryNode::If(Conditional { then, otherwise, .. }) => {
                     has(then, is_meant) || has(otherwise, is_meant)
                 }
             })
         }
         nodes.iter().find_map(|node| match node {
-            Node::Entry(_) => None,
-            Node::For(Loop { range, body, .. }) => {
+            EntryNode::Entry(_) => None,
+            EntryNode::For(Loop { range, body, .. }) => {
                 let own = self.range(range).filter(|_| has(body, is_meant));
                 own.or_else(|| self.nodes(body, is_meant))
             }
-            Node::If(Conditional { condition, then, otherwise }) => {
+            EntryNode::If(Conditional { condition, then, otherwise }) => {
                 let own =
                     self.condition(condition).filter(|_| has(then, is_meant) || has(otherwise, is_meant));
                 own.or_else(|| self.nodes(then, is_meant)).or_else(|| self.nodes(otherwise, is_meant))

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use crate::diagnostics::{Fault, Faults};
 use crate::names::{RATE_SUFFIX, is_function, is_reserved, nearest};
 use crate::syntax::{
-    Component, Conditional, Expression, ExpressionKind, Index, Item, Loop, ModeStatement, Name, Node, SPEED,
+    Component, Conditional, EntryNode, Expression, ExpressionKind, Index, Item, Loop, ModeStatement, Name,
+    SPEED,
 };
 
 /// Reports names that a component does not declare, and names that it declares twice or that are reserved.
@@ -114,15 +115,15 @@ struct Scope<'a> {
     variables: Vec<&'a str>,
 }
 
-pub(super) fn loop_variables<'a>(nodes: &'a [Node], found: &mut Vec<&'a str>) {
+pub(super) fn loop_variables<'a>(nodes: &'a [EntryNode], found: &mut Vec<&'a str>) {
     for node in nodes {
         match node {
-            Node::Entry(_) => {}
-            Node::For(Loop { variable, body, .. }) => {
+            EntryNode::Entry(_) => {}
+            EntryNode::For(Loop { variable, body, .. }) => {
                 found.push(&variable.text);
                 loop_variables(body, found);
             }
-            Node::If(Conditional { then, otherwise, .. }) => {
+            EntryNode::If(Conditional { then, otherwise, .. }) => {
                 loop_variables(then, found);
                 loop_variables(otherwise, found);
             }

@@ -11,8 +11,8 @@ use super::Unfolder;
 use super::arrays::brackets;
 use crate::diagnostics::Fault;
 use crate::syntax::{
-    AddOperator, Expression, ExpressionKind, Factor, Fold, Index, Item, ModeStatement, MultiplyOperator,
-    Name, Node, Number, Order, Path, Step, Term,
+    AddOperator, EntryNode, Expression, ExpressionKind, Factor, Fold, Index, Item, ModeStatement,
+    MultiplyOperator, Name, Number, Order, Path, Step, Term,
 };
 
 impl Unfolder<'_> {
@@ -368,7 +368,7 @@ fn number(value: i64, span: Span) -> Expression {
 }
 
 /// The order of the entries of a section, where loops stand between them.
-pub(super) fn section_nesting(item: &Item) -> Option<&[Node]> {
+pub(super) fn section_nesting(item: &Item) -> Option<&[EntryNode]> {
     let nesting = match item {
         Item::Constants(section) => &section.nesting,
         Item::Functions(section) => &section.nesting,

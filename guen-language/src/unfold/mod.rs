@@ -22,7 +22,7 @@ use crate::diagnostics::{Fault, Faults};
 use crate::limits::MAX_UNFOLDED;
 use crate::names;
 use crate::syntax::{
-    Component, Conditional, Declaration, Docs, Index, Item, Loop, Name, Node, Range, Visibility,
+    Component, Conditional, Declaration, Docs, EntryNode, Index, Item, Loop, Name, Range, Visibility,
 };
 use arrays::Arrays;
 pub(crate) use component_names::names as check_names;
@@ -129,7 +129,7 @@ impl<'f> Unfolder<'f> {
     }
 
     /// Calls a function for every entry of a list, in the order in which loops and conditions yield them.
-    fn each(&mut self, nodes: &[Node], entries: usize, visit: &mut dyn FnMut(&mut Self, usize)) {
+    fn each(&mut self, nodes: &[EntryNode], entries: usize, visit: &mut dyn FnMut(&mut Self, usize)) {
         if nodes.is_empty() {
             for entry in 0..entries {
                 self.one(entry, visit);
@@ -139,15 +139,15 @@ impl<'f> Unfolder<'f> {
         }
     }
 
-    fn nodes(&mut self, nodes: &[Node], visit: &mut dyn FnMut(&mut Self, usize)) {
+    fn nodes(&mut self, nodes: &[EntryNode], visit: &mut dyn FnMut(&mut Self, usize)) {
         for node in nodes {
             match node {
-                Node::Entry(entry) => self.one(*entry, visit),
-                Node::For(Loop { variable, range, body, .. }) => {
+                EntryNode::Entry(entry) => self.one(*entry, visit),
+                EntryNode::For(Loop { variable, range, body, .. }) => {
                     self.check_variable(variable);
                     self.repeat(variable, range, &mut |this| this.nodes(body, visit));
                 }
-                Node::If(Conditional { condition, then, otherwise }) => match self.holds(condition) {
+                EntryNode::If(Conditional { condition, then, otherwise }) => match self.holds(condition) {
                     Some(true) => self.nodes(then, visit),
                     Some(false) => self.nodes(otherwise, visit),
                     None => {}

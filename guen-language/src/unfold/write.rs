@@ -3,9 +3,9 @@
 use super::Unfolder;
 use super::arrays::next;
 use crate::syntax::{
-    Assignment, Body, BodyField, Clause, Constant, Contact, Declaration, Definition, Equation, Expression,
-    Fix, Force, FunctionDefinition, GivenArgument, Index, Inertia, Item, ModeStatement, Name, Particle,
-    Plain, Provide, Quantity, Reset, Scene, SceneStatement, Section, State, Switch, Use,
+    Body, BodyField, Clause, Constant, Contact, Declaration, Definition, Equation, Expression, Fix, Force,
+    FunctionDefinition, GivenArgument, Index, Inertia, Item, ModeStatement, Name, Particle, Plain, Provide,
+    Quantity, Reset, ResetAssignment, Scene, SceneStatement, Section, State, Switch, Use,
 };
 
 impl Unfolder<'_> {
@@ -164,7 +164,7 @@ impl Unfolder<'_> {
 
     fn reset(&mut self, reset: &Reset) -> Option<Reset> {
         let function = self.expression(&reset.function);
-        let assignments = reset.assignments.iter().map(|given| Assignment {
+        let assignments = reset.assignments.iter().map(|given| ResetAssignment {
             variable: self.expression(&given.variable),
             equals: given.equals,
             value: self.expression(&given.value),

@@ -1,7 +1,7 @@
 //! Absolute values: at a point modulo p they are one of a number and its opposite, and in a state the other.
 
 use crate::common::{derived, derived_without, evaluated};
-use guen_language::derive::{Derived, function};
+use guen_language::derive::{DerivedSystem, function};
 use guen_symbolic::SymbolId;
 
 #[test]
@@ -150,7 +150,7 @@ fn roots_of_squares_keep_their_signs() {
                 forces {{ {load} along w; }}
             }}"
         );
-        let compare = |derived: &Derived<'_>| {
+        let compare = |derived: &DerivedSystem<'_>| {
             let graph = &derived.model.bench.graph;
             for at in [0.7, -0.7, 2.9, -2.2, 5.1, -1500.3] {
                 let value = |symbol: SymbolId| match graph.symbol_info(symbol).name.as_str() {

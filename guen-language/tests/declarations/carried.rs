@@ -2,7 +2,7 @@
 //! those of the system, and those of the functions are what central differences along the motion show.
 
 use crate::common::{derived, evaluated, rounds};
-use guen_language::derive::{Derived, DerivedLevel, function};
+use guen_language::derive::{DerivedLevel, DerivedSystem, function};
 use guen_symbolic::{Role, SymbolId};
 
 /// A fixed sequence of numbers that looks random (a linear congruential generator, upper bits).
@@ -75,7 +75,12 @@ fn declaration(draw: &mut Sequence) -> String {
 }
 
 /// The values of a function of a level; symbols without a value are refused.
-fn values(derived: &Derived<'_>, level: &DerivedLevel, name: &str, known: &[(SymbolId, f64)]) -> Vec<f64> {
+fn values(
+    derived: &DerivedSystem<'_>,
+    level: &DerivedLevel,
+    name: &str,
+    known: &[(SymbolId, f64)],
+) -> Vec<f64> {
     let at = |symbol: SymbolId| {
         let known = known.iter().find(|(other, _)| *other == symbol);
         known
@@ -93,7 +98,7 @@ fn close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
     }
 }
 
-fn check(text: &str, derived: &Derived<'_>, draw: &mut Sequence) {
+fn check(text: &str, derived: &DerivedSystem<'_>, draw: &mut Sequence) {
     let (system, carried) = (&derived.system, derived.system.carried.as_deref().unwrap());
     let graph = &derived.model.bench.graph;
     let rates = carried.program(function::RHS).unwrap();

@@ -4,11 +4,11 @@ use std::fmt::Write;
 
 use crate::common::{derived, evaluated};
 use crate::families::robots;
-use guen_language::derive::{Derived, DerivedLevel, function};
+use guen_language::derive::{DerivedLevel, DerivedSystem, function};
 use guen_symbolic::{Graph, SymbolId, evaluate_f64};
 
 /// A level's rates, put into its equations at a state.
-fn residual(derived: &Derived<'_>) -> f64 {
+fn residual(derived: &DerivedSystem<'_>) -> f64 {
     let level = &derived.system;
     let graph = &derived.model.bench.graph;
     let value = |symbol: SymbolId| {
@@ -163,7 +163,7 @@ fn a_quadruped_costs_so_many_operations_and_solves_its_equations() {
 }
 
 /// The quaternions are of length one: elsewhere nothing is promised of what moves on the constraints.
-fn residual_on_quaternions(derived: &Derived<'_>) -> f64 {
+fn residual_on_quaternions(derived: &DerivedSystem<'_>) -> f64 {
     let level = &derived.system;
     let graph = &derived.model.bench.graph;
     let draw =

@@ -1,6 +1,6 @@
 //! Painlevé's paradox: what is proved of it, against the matrices of the reactions in numbers, and where it is known to occur.
 
-use guen_language::derive::{Derived, Painleve};
+use guen_language::derive::{DerivedSystem, Painleve};
 use guen_language::model::{ContactKind, ContactState};
 use guen_language::report::ReportLines;
 use guen_symbolic::evaluate_f64;
@@ -38,7 +38,7 @@ fn particle(constants: &str, contacts: &str) -> String {
 }
 
 /// The modes in words in which a reaction may have no value or several, separated by semicolons.
-fn doubtful(derived: &Derived<'_>) -> String {
+fn doubtful(derived: &DerivedSystem<'_>) -> String {
     let contacts = derived.model.contacts.as_ref().unwrap();
     let facts = derived.system.contacts.as_ref().unwrap();
     let Painleve { doubtful, .. } = &facts.painleve;
@@ -59,7 +59,7 @@ fn drawn(seed: &mut u64) -> f64 {
 
 /// The least principal minor, relative to that of the Delassus matrix, of the matrices of the reactions in modes without doubt and in
 /// the others, at drawn states and constants.
-fn least_minors(derived: &Derived<'_>, limits: &[(&str, f64, f64)]) -> [f64; 2] {
+fn least_minors(derived: &DerivedSystem<'_>, limits: &[(&str, f64, f64)]) -> [f64; 2] {
     let contacts = derived.model.contacts.as_ref().unwrap();
     let facts = derived.system.contacts.as_ref().unwrap();
     let graph = &derived.model.bench.graph;

@@ -46,12 +46,12 @@ enum Part {
     /// A statement that the motion does not depend on, or a fault of dimensions, which hides nothing.
     Leaf,
     /// A fault that the derivation finds, in a core that is sound.
-    Derived,
+    DerivedSystem,
     /// One that leaves no equations of motion.
     Singular,
 }
 
-use Part::{Core, Derived, Leaf, Singular};
+use Part::{Core, DerivedSystem, Leaf, Singular};
 
 /// The part, what is right, what is wrong, and how the message begins.
 const FAULTS: [(Part, &str, &str, &str); 54] = [
@@ -118,8 +118,8 @@ const FAULTS: [(Part, &str, &str, &str); 54] = [
     (Leaf, "level: z - x,", "level: z - x*x,", "this sum adds different dimensions"),
     // The derivation.
     (Singular, "J/2*spin^2", "0*spin^2", "cannot solve for the accelerations"),
-    (Derived, "slip = u - a*spin", "slip = w", "the slip of `floor` is the rate of its gap"),
-    (Derived, "gap = far - x;", "gap = y - x;", "the gap of `wall` never changes"),
+    (DerivedSystem, "slip = u - a*spin", "slip = w", "the slip of `floor` is the rate of its gap"),
+    (DerivedSystem, "gap = far - x;", "gap = y - x;", "the gap of `wall` never changes"),
 ];
 
 /// Pairs of statements: a fault in the first one hides a fault in the second. Without a count nothing is known of entries, without the
@@ -220,7 +220,7 @@ fn check_pairs(out_of: usize) {
     for ((i, j), found) in pairs.iter().zip(found) {
         let parts = [FAULTS[usable[*i]].0, FAULTS[usable[*j]].0];
         let needed = |part: Part| match part {
-            Derived => parts.iter().any(|other| matches!(other, Core | Singular)),
+            DerivedSystem => parts.iter().any(|other| matches!(other, Core | Singular)),
             Singular => parts.contains(&Core),
             Core | Leaf => false,
         };

@@ -3,7 +3,7 @@
 
 use crate::common::{derived, evaluated, rounds};
 use f256::f256;
-use guen_language::derive::{Derived, function};
+use guen_language::derive::{DerivedSystem, function};
 use guen_symbolic::{SymbolId, evaluate};
 
 /// Roundings of the largest acceleration that may be lost, far from the edge and next to it: there are some hundred
@@ -44,7 +44,7 @@ fn ball(turns: &str) -> String {
 }
 
 /// The largest error of an acceleration, in roundings of the largest of them, on the way to `q = edge`.
-fn roundings(derived: &Derived<'_>, edge: f64) -> f64 {
+fn roundings(derived: &DerivedSystem<'_>, edge: f64) -> f64 {
     let (graph, level) = (&derived.model.bench.graph, &derived.system);
     let derivation = &level.derivation;
     let exact = &derivation.solution.accelerations;

@@ -1,7 +1,7 @@
 //! Mechanisms that close in space, each in several coordinates: Bricard's ring of six hinges at right angles, whose closing equations are one too
 //! many, and a platform on six legs. Their rates do not depend on the coordinates.
 
-use guen_language::derive::{Derived, function};
+use guen_language::derive::{DerivedSystem, function};
 
 use crate::common::{derived, evaluated};
 
@@ -37,7 +37,7 @@ fn plus(a: Vector, b: Vector, factor: f64) -> Vector {
 }
 
 /// The values of a list of functions where symbols have the values named, and all others `1.3`.
-fn at(derived: &Derived<'_>, name: &str, values: &[(String, f64)]) -> Vec<f64> {
+fn at(derived: &DerivedSystem<'_>, name: &str, values: &[(String, f64)]) -> Vec<f64> {
     let value = |symbol| {
         let name = derived.model.bench.graph.symbol_info(symbol).name.as_str();
         values.iter().find(|(known, _)| known == name).map_or(1.3, |(_, value)| *value)

@@ -2,7 +2,7 @@
 //! a power of it.
 
 use crate::common::{derived, derived_without, evaluated};
-use guen_language::derive::{Derived, function};
+use guen_language::derive::{DerivedSystem, function};
 use guen_symbolic::SymbolId;
 use nalgebra::{DMatrix, DVector};
 
@@ -17,7 +17,7 @@ fn draw(name: &str) -> f64 {
 }
 
 /// The rates of the program where symbols have these values.
-fn rates(derived: &Derived<'_>, value: &dyn Fn(&str) -> f64) -> Vec<f64> {
+fn rates(derived: &DerivedSystem<'_>, value: &dyn Fn(&str) -> f64) -> Vec<f64> {
     let graph = &derived.model.bench.graph;
     let named = |symbol: SymbolId| value(&graph.symbol_info(symbol).name);
     evaluated(&derived.system, function::RHS, named).unwrap()
@@ -145,7 +145,7 @@ fn expected_in_points(loops: usize, p: &[f64], turn: f64) -> Vec<f64> {
 /// Checks bars in both descriptions: by angles at states of any shape, for what is derived there asks of velocities what the constraints
 /// do, wherever they hold. Returns what both cost.
 fn checked(loops: usize) -> [u32; 2] {
-    let count = |derived: &Derived<'_>| {
+    let count = |derived: &DerivedSystem<'_>| {
         let cost = derived.system.program(function::RHS).unwrap().cost;
         cost.operations() + cost.sines + cost.calls
     };
@@ -251,7 +251,7 @@ fn a_long_chain_of_relative_angles_is_that_of_absolute_ones() {
 #[test]
 fn a_load_on_a_cable_moves_as_by_its_mass_matrix() {
     let text = robots::crane(3);
-    let rates_of = |derived: &Derived<'_>| -> Vec<Vec<f64>> {
+    let rates_of = |derived: &DerivedSystem<'_>| -> Vec<Vec<f64>> {
         (0..5).map(|k| rates(derived, &|name| 0.2 + draw(&format!("{name}{k}")).abs())).collect()
     };
     let found = derived(&text, |derived| {

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use crate::common::{derived, evaluated, rounds};
-use guen_language::derive::{Derived, DerivedLevel};
+use guen_language::derive::{DerivedLevel, DerivedSystem};
 use guen_language::model;
 use guen_symbolic::{Role, SymbolId};
 
@@ -86,7 +86,7 @@ pub fn declaration(draw: &mut Sequence) -> String {
 
 /// The value of a symbol in a program of a level: constants and variables of the whole system, by name.
 fn run(
-    derived: &Derived<'_>,
+    derived: &DerivedSystem<'_>,
     level: &DerivedLevel,
     name: &str,
     constants: [f64; 3],
@@ -111,7 +111,7 @@ fn run(
 }
 
 /// Which rates of the whole system change with which variable, somewhere.
-fn pattern(derived: &Derived<'_>, constants: [f64; 3], draw: &mut Sequence) -> Vec<Vec<bool>> {
+fn pattern(derived: &DerivedSystem<'_>, constants: [f64; 3], draw: &mut Sequence) -> Vec<Vec<bool>> {
     let size = derived.system.selection.variables.len();
     let mut depends = vec![vec![false; size]; size];
     for _ in 0..6 {

@@ -6,7 +6,7 @@
 //! velocities and reactions within the bound of `docs/design/rounding.md`. Programs run in doubles and in 71 digits.
 
 use f256::f256;
-use guen_language::derive::{Derived, DerivedLevel, function};
+use guen_language::derive::{DerivedLevel, DerivedSystem, function};
 use guen_symbolic::{Arithmetic, ExprId, Rational, SymbolId, evaluate, evaluate_function, evaluate_prepare};
 
 use crate::common::derived;
@@ -36,7 +36,7 @@ impl Draw {
 
 /// A derived system whose programs are evaluated at states. A state is a list of coordinates, parameters and constants.
 struct Asked<'a> {
-    derived: &'a Derived<'a>,
+    derived: &'a DerivedSystem<'a>,
     level: &'a DerivedLevel,
     /// The symbols of coordinates, parameters and constants.
     symbols: Vec<SymbolId>,
@@ -44,7 +44,7 @@ struct Asked<'a> {
 }
 
 impl<'a> Asked<'a> {
-    fn new(derived: &'a Derived<'a>) -> Self {
+    fn new(derived: &'a DerivedSystem<'a>) -> Self {
         let graph = &derived.model.bench.graph;
         let system = &derived.system.derivation.system;
         let degrees = system.forms.degrees;

@@ -1,6 +1,6 @@
 //! States beside the motion: their rates, what may depend on them, and what scenes keep of them.
 
-use guen_language::derive::{Derived, function};
+use guen_language::derive::{DerivedSystem, function};
 use guen_language::report::ReportLines;
 use guen_symbolic::SymbolId;
 
@@ -29,7 +29,7 @@ pub const MOTOR: &str = "pub system Motor {
     scene Whole { track error, heat; provide taylor, carried, energy; }
 }";
 
-fn at(derived: &Derived<'_>, known: &[(&str, f64)]) -> impl Fn(SymbolId) -> f64 {
+fn at(derived: &DerivedSystem<'_>, known: &[(&str, f64)]) -> impl Fn(SymbolId) -> f64 {
     let graph = &derived.model.bench.graph;
     let names: Vec<String> = graph.symbols().map(|s| graph.symbol_info(s).name.clone()).collect();
     let known: Vec<(String, f64)> = known.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();

@@ -2,7 +2,7 @@
 //! that may be zero or negative may not.
 
 use crate::common::{derived, evaluated};
-use guen_language::derive::{Derived, function};
+use guen_language::derive::{DerivedSystem, function};
 use guen_language::report::ReportLines;
 use guen_symbolic::{SymbolId, evaluate_f64};
 
@@ -34,7 +34,7 @@ fn operations(text: &str) -> u32 {
 }
 
 /// What is left of the equations of motion with the rates of the program, relative to the forces in them.
-fn residual(derived: &Derived<'_>, constants: &[(&str, f64)]) -> f64 {
+fn residual(derived: &DerivedSystem<'_>, constants: &[(&str, f64)]) -> f64 {
     let graph = &derived.model.bench.graph;
     let value = |symbol: SymbolId| {
         let name = &graph.symbol_info(symbol).name;
@@ -55,7 +55,7 @@ fn residual(derived: &Derived<'_>, constants: &[(&str, f64)]) -> f64 {
 }
 
 /// The constants that `prepare` wants to differ from zero.
-fn pivots(derived: &Derived<'_>) -> Vec<String> {
+fn pivots(derived: &DerivedSystem<'_>) -> Vec<String> {
     let graph = &derived.model.bench.graph;
     derived.system.constant_pivots.iter().map(|e| graph.text(*e)).collect()
 }

@@ -5,7 +5,7 @@ use super::function::{Function, Multivariate};
 use super::graph::Graph;
 use super::id::ExprId;
 use super::node::Node;
-use super::symbol::Bound;
+use super::symbol::SignBound;
 
 impl Graph {
     /// A function of one argument, in normal form.
@@ -337,7 +337,7 @@ impl Graph {
             Node::Kept(x) => self.manifestly_nonnegative(*x),
             Node::Number(value) => !value.is_negative(),
             Node::Symbol(symbol) => {
-                matches!(self.symbol_info(*symbol).bound, Bound::Positive | Bound::NonNegative)
+                matches!(self.symbol_info(*symbol).bound, SignBound::Positive | SignBound::NonNegative)
             }
             Node::Sum { constant, terms } => {
                 !constant.is_negative()
@@ -370,8 +370,9 @@ impl Graph {
     }
 
     fn manifestly_nonpositive_symbol(&self, id: ExprId) -> bool {
-        self.as_symbol(id)
-            .is_some_and(|s| matches!(self.symbol_info(s).bound, Bound::Negative | Bound::NonPositive))
+        self.as_symbol(id).is_some_and(|s| {
+            matches!(self.symbol_info(s).bound, SignBound::Negative | SignBound::NonPositive)
+        })
     }
 
     /// Whether an expression is seen to be above zero wherever it is defined; `false` means unknown.
@@ -379,7 +380,7 @@ impl Graph {
         match self.node(id) {
             Node::Kept(x) => self.manifestly_positive(*x),
             Node::Number(value) => !value.is_negative() && !value.is_zero(),
-            Node::Symbol(symbol) => self.symbol_info(*symbol).bound == Bound::Positive,
+            Node::Symbol(symbol) => self.symbol_info(*symbol).bound == SignBound::Positive,
             Node::Sum { constant, terms } => {
                 self.manifestly_nonnegative(id)
                     && (!constant.is_zero()
@@ -410,7 +411,10 @@ impl Graph {
             Node::Kept(x) => self.manifestly_nonzero(*x),
             Node::Number(value) => !value.is_zero(),
             Node::Symbol(symbol) => {
-                matches!(self.symbol_info(*symbol).bound, Bound::Positive | Bound::Negative | Bound::NonZero)
+                matches!(
+                    self.symbol_info(*symbol).bound,
+                    SignBound::Positive | SignBound::Negative | SignBound::NonZero
+                )
             }
             Node::Sum { constant, terms } if constant.is_zero() && terms.len() == 1 => {
                 self.manifestly_nonzero(terms[0].0)

@@ -8,7 +8,7 @@ use super::id::{ExprId, SymbolId, mix};
 use super::map::{FastMap, spread};
 use super::node::{Node, content_of};
 use super::search::{Search, sort_ids};
-use super::symbol::{Bound, Role, Roles, Symbol};
+use super::symbol::{Role, Roles, SignBound, Symbol};
 use super::{Function, Rational};
 
 fn is_product(node: &Node, factors: &[(ExprId, i32)]) -> bool {
@@ -188,11 +188,11 @@ impl Graph {
 
     /// A new symbol without a promise about its value. Symbols are never merged, also if names agree.
     pub fn symbol(&mut self, name: &str, role: Role) -> ExprId {
-        self.bounded_symbol(name, role, Bound::Free)
+        self.bounded_symbol(name, role, SignBound::Free)
     }
 
     /// A new symbol with a promise about its value.
-    pub fn bounded_symbol(&mut self, name: &str, role: Role, bound: Bound) -> ExprId {
+    pub fn bounded_symbol(&mut self, name: &str, role: Role, bound: SignBound) -> ExprId {
         let id = SymbolId(self.symbols.len() as u32);
         let ordinal = self.role_counts[role as usize];
         self.role_counts[role as usize] += 1;
@@ -213,9 +213,9 @@ impl Graph {
     pub(crate) fn set_indispensable(&mut self, symbol: SymbolId) {
         let bound = &mut self.symbols[symbol.index()].bound;
         *bound = match *bound {
-            Bound::Free => Bound::NonZero,
-            Bound::NonNegative => Bound::Positive,
-            Bound::NonPositive => Bound::Negative,
+            SignBound::Free => SignBound::NonZero,
+            SignBound::NonNegative => SignBound::Positive,
+            SignBound::NonPositive => SignBound::Negative,
             known => known,
         };
         self.indispensable.push(symbol);

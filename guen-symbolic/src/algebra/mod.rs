@@ -35,4 +35,4 @@ pub use ranges::PossibleSigns;
 pub use rational::Rational;
 pub(crate) use search::sort_ids;
 pub use substitute::Substitution;
-pub use symbol::{Bound, Role, Roles, Symbol};
+pub use symbol::{Role, Roles, SignBound, Symbol};

@@ -6,7 +6,7 @@ use super::id::ExprId;
 use super::map::FastMap;
 use super::node::Node;
 use super::rational::Rational;
-use super::symbol::Bound;
+use super::symbol::SignBound;
 
 /// Powers beyond this one have no ends but zero and infinity.
 const LARGEST_EXPONENT: u32 = 16;
@@ -225,11 +225,11 @@ impl Graph {
             Node::Number(value) => Range::closed(value.clone(), value.clone()),
             Node::Pi => Range::closed(Rational::new(31_415, 10_000), Rational::new(31_416, 10_000)),
             Node::Symbol(symbol) => match self.symbol_info(*symbol).bound {
-                Bound::Positive => Range::from_zero(true),
-                Bound::NonNegative => Range::from_zero(false),
-                Bound::Negative => Range::from_zero(true).opposite(),
-                Bound::NonPositive => Range::from_zero(false).opposite(),
-                Bound::Free | Bound::NonZero => Range::ALL,
+                SignBound::Positive => Range::from_zero(true),
+                SignBound::NonNegative => Range::from_zero(false),
+                SignBound::Negative => Range::from_zero(true).opposite(),
+                SignBound::NonPositive => Range::from_zero(false).opposite(),
+                SignBound::Free | SignBound::NonZero => Range::ALL,
             },
             Node::Sum { constant, terms } => {
                 let mut sum = Range::closed(constant.clone(), constant.clone());

@@ -57,7 +57,7 @@ impl Roles {
 
 /// The bound that a declaration promises for a physical constant.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
-pub enum Bound {
+pub enum SignBound {
     /// No bound.
     #[default]
     Free,
@@ -81,5 +81,5 @@ pub struct Symbol {
     /// The meaning of the symbol.
     pub role: Role,
     /// The promise about its value.
-    pub bound: Bound,
+    pub bound: SignBound,
 }

@@ -8,7 +8,7 @@ use super::mass_matrix::indispensable;
 use super::quasi_velocities::forces::generalised_forces;
 use super::quasi_velocities::velocity_forms::VelocityPartials;
 use super::results::state_rates;
-use super::{Energies, Equations, Frame, Mechanics, MotionSymbol, Solution, decompose};
+use super::{Energies, Frame, Mechanics, MotionEquations, MotionSymbol, Solution, decompose};
 use crate::algebra::{ExprId, FastMap, Flow, Role, Roles, Substitution};
 use crate::geometry::{Closure, Operators};
 use crate::workbench::Workbench;
@@ -47,7 +47,7 @@ pub struct Derivation {
     pub conservative: bool,
     /// The equations of motion, `l` rows, generalised forces included; none of a large system without constraints, see
     /// [`Derivation::is_written_out`].
-    pub equations: Equations,
+    pub equations: MotionEquations,
     /// The generalised forces `Q_1..Q_n` on their own.
     pub generalised_forces: Vec<ExprId>,
     /// The solved accelerations.
@@ -71,7 +71,7 @@ pub struct Derivation {
     /// The outputs on the constraints.
     pub outputs: Vec<ExprId>,
     /// The equations with the constraints as parameters that stay zero, where they were needed so far.
-    pub(super) freed: Option<Equations>,
+    pub(super) freed: Option<MotionEquations>,
 }
 
 impl Derivation {

@@ -27,14 +27,14 @@ mod thresholds;
 
 pub use coordinates::dependence::Dependence;
 pub use declaration::{FirstOrderState, Force, Holonomic, Mechanics, MotionSymbol, Multibody, RigidBody};
-pub use definition::equations::Equations;
+pub use definition::equations::MotionEquations;
 pub use definition::poincare::equations as equations_by_definition;
 pub use derivation::{Class, Derivation};
 pub use fault::DerivationError;
 pub use formulations::multibody::elimination_text;
 pub use formulations::{Formulated, REFUTED, formulation_names};
 pub use graph::{
-    BodyNode, Component, FormShape, FrameId, FrameNode, Motion, Place, SystemGraph, Turn, Velocity,
+    BodyNode, FormShape, FrameId, FrameNode, Motion, Place, SystemGraph, Turn, Velocity, VelocityComponent,
 };
 pub use mass_matrix::solve::Solution;
 pub use quasi_velocities::frame::Frame;

@@ -1,5 +1,5 @@
 use super::{Limits, normal_coefficients, normal_form};
-use crate::{Bound, ExprId, Function, Graph, Node, Rational, Role};
+use crate::{ExprId, Function, Graph, Node, Rational, Role, SignBound};
 
 const CONSTANTS: &[&str] = &["a", "A", "C", "g", "m", "alpha", "beta", "gamma", "k"];
 const COORDINATES: &[&str] = &["theta", "psi", "x", "y", "z"];
@@ -8,7 +8,7 @@ const VELOCITIES: &[&str] = &["eta1", "eta2", "eta3"];
 fn world() -> Graph {
     let mut g = Graph::new();
     for name in CONSTANTS {
-        g.bounded_symbol(name, Role::Constant, Bound::Positive);
+        g.bounded_symbol(name, Role::Constant, SignBound::Positive);
     }
     for name in COORDINATES {
         g.symbol(name, Role::Coordinate);

@@ -12,7 +12,7 @@ use super::lower::{Code, PreparedTable, lower};
 use super::net::Net;
 use super::part::needed;
 use super::terms::NetId;
-use crate::algebra::{Bound, ExprId, Function, Graph, Multivariate, Rational, Role, SymbolId, mix};
+use crate::algebra::{ExprId, Function, Graph, Multivariate, Rational, Role, SignBound, SymbolId, mix};
 use crate::zero::evaluate;
 
 /// Random points.
@@ -161,11 +161,11 @@ impl Point {
         let part = draw as f64 / (1_u64 << 53) as f64;
         let info = graph.symbol_info(symbol);
         match info.bound {
-            Bound::Positive | Bound::NonNegative => 0.3 + 1.5 * part,
-            Bound::Negative | Bound::NonPositive => -0.3 - 1.5 * part,
+            SignBound::Positive | SignBound::NonNegative => 0.3 + 1.5 * part,
+            SignBound::Negative | SignBound::NonPositive => -0.3 - 1.5 * part,
             // What a bound promises must not change which program is taken.
             _ if info.role == Role::Constant && !self.has_all_signs => 0.3 + 1.5 * part,
-            Bound::Free | Bound::NonZero => self.size * (3.0 * part - 1.5),
+            SignBound::Free | SignBound::NonZero => self.size * (3.0 * part - 1.5),
         }
     }
 }

@@ -37,5 +37,5 @@ pub use evaluate::{Arithmetic, evaluate_function, evaluate_prepare};
 pub use instruction::{FunctionProgram, Instruction, Operation, Programs, Value};
 pub use jacobian::Pattern;
 pub use roll::{ArrayIndex, Arrays, Line, Loop, Operand, Places, Rolled, RolledStep};
-pub use taylor::{NotAnalytic, SeriesProgram, SeriesStep, Source, Start};
+pub use taylor::{NotAnalytic, SeriesProgram, SeriesStep, Start, SymbolInStep};
 pub use thresholds::{LARGEST_DIFFERENTIATED, LARGEST_JACOBIAN};

@@ -10,7 +10,7 @@ use super::field::{self, PRIME, add, inverse, mul, neg, sub};
 use super::real::{Real, RealPoint, evaluate_in, exponent};
 use super::sample::Sample;
 use super::table::Table;
-use crate::algebra::{Bound, ExprId, FastMap, Flow, Function, Graph, Multivariate, Node, Role, SymbolId};
+use crate::algebra::{ExprId, FastMap, Flow, Function, Graph, Multivariate, Node, Role, SignBound, SymbolId};
 use f256::f256;
 
 /// Equations that are solved together; the unit vectors of a frame need three.
@@ -169,9 +169,9 @@ impl Manifold {
             }
             let within =
                 self.variables.iter().zip(&x).all(|(symbol, x)| match graph.symbol_info(*symbol).bound {
-                    Bound::Positive | Bound::NonNegative => *x > 1e-3,
-                    Bound::Negative | Bound::NonPositive => *x < -1e-3,
-                    Bound::Free | Bound::NonZero => true,
+                    SignBound::Positive | SignBound::NonNegative => *x > 1e-3,
+                    SignBound::Negative | SignBound::NonPositive => *x < -1e-3,
+                    SignBound::Free | SignBound::NonZero => true,
                 });
             // NaN is not below either.
             if !within || last.is_nan() || last > 1e-6 {
@@ -338,9 +338,9 @@ impl Block {
                 }
                 let allowed =
                     self.symbols.iter().zip(&solution).all(|(symbol, value)| match info(symbol).bound {
-                        Bound::Free | Bound::NonZero => true,
-                        Bound::Positive | Bound::NonNegative => field::is_residue(*value),
-                        Bound::Negative | Bound::NonPositive => field::is_residue(neg(*value)),
+                        SignBound::Free | SignBound::NonZero => true,
+                        SignBound::Positive | SignBound::NonNegative => field::is_residue(*value),
+                        SignBound::Negative | SignBound::NonPositive => field::is_residue(neg(*value)),
                     });
                 if allowed {
                     fixed.extend(self.symbols.iter().copied().zip(solution));

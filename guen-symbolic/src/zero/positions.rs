@@ -4,7 +4,7 @@
 use super::field::mix;
 use super::manifold::solve_dense;
 use super::real::{Real, evaluate_in};
-use crate::algebra::{Bound, ExprId, FastMap, Flow, Graph, Rational, Role, SymbolId};
+use crate::algebra::{ExprId, FastMap, Flow, Graph, Rational, Role, SignBound, SymbolId};
 
 /// Steps of one search.
 const STEPS: usize = 120;
@@ -13,7 +13,7 @@ const STEPS: usize = 120;
 pub(super) type Drawn<'d> = &'d dyn Fn(SymbolId) -> f64;
 
 /// The equations with their derivatives.
-pub(super) struct Equations<'a> {
+pub(super) struct MotionEquations<'a> {
     pub(super) graph: &'a Graph,
     pub(super) equations: &'a [ExprId],
     /// The equations, and their derivatives row by row.
@@ -26,7 +26,7 @@ pub(super) struct Equations<'a> {
     pub(super) moving: Vec<bool>,
 }
 
-impl<'a> Equations<'a> {
+impl<'a> MotionEquations<'a> {
     pub(super) fn new(graph: &'a mut Graph, equations: &'a [ExprId]) -> Self {
         let symbols = graph.symbols_in(equations).into_iter();
         let variables: Vec<SymbolId> = symbols
@@ -46,7 +46,7 @@ impl<'a> Equations<'a> {
         }
         let moving = variables.iter().map(|s| graph.symbol_info(*s).role == Role::Coordinate).collect();
         let order = graph.reachable(&roots, |_| false);
-        Equations { graph, equations, roots, order, variables, moving }
+        MotionEquations { graph, equations, roots, order, variables, moving }
     }
 
     /// Left sides and gradients by all variables.
@@ -107,9 +107,9 @@ impl<'a> Equations<'a> {
             }
         }
         let keeps = |(symbol, x): (&SymbolId, &f64)| match self.graph.symbol_info(*symbol).bound {
-            Bound::Positive | Bound::NonNegative => *x > 1e-3,
-            Bound::Negative | Bound::NonPositive => *x < -1e-3,
-            Bound::Free | Bound::NonZero => true,
+            SignBound::Positive | SignBound::NonNegative => *x > 1e-3,
+            SignBound::Negative | SignBound::NonPositive => *x < -1e-3,
+            SignBound::Free | SignBound::NonZero => true,
         };
         (size(&f) < 1e-20 && self.variables.iter().zip(&x).all(keeps)).then_some(x)
     }
@@ -154,7 +154,7 @@ pub(crate) fn drawn_states(
     if equations.is_empty() {
         return (0..count).map(anywhere).collect();
     }
-    let equations = Equations::new(graph, equations);
+    let equations = MotionEquations::new(graph, equations);
     let on_manifold = |seed: usize| {
         let start = anywhere(seed);
         let drawn = |symbol: SymbolId| match equations.graph.symbol_info(symbol).role {

@@ -5,7 +5,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use f256::f256;
 
 use super::field::mix;
-use crate::algebra::{Bound, ExprId, FastMap, Function, Graph, Multivariate, Node, Rational, SymbolId};
+use crate::algebra::{ExprId, FastMap, Function, Graph, Multivariate, Node, Rational, SignBound, SymbolId};
 
 /// The operations that evaluation needs of a kind of real number.
 pub trait Real:
@@ -349,10 +349,10 @@ impl RealPoint {
         let coin = mix(symbol.index() as u64 ^ self.round) & 1 == 1;
         let size = self.scale * (0.2 + 1.3 * ((bits >> 12) as f64 / (1_u64 << 52) as f64));
         let negative = match graph.symbol_info(symbol).bound {
-            Bound::Positive | Bound::NonNegative => false,
-            Bound::Negative | Bound::NonPositive => true,
+            SignBound::Positive | SignBound::NonNegative => false,
+            SignBound::Negative | SignBound::NonPositive => true,
             // Mixed, all positive, mixed the other way, all negative.
-            Bound::Free | Bound::NonZero => match self.signs {
+            SignBound::Free | SignBound::NonZero => match self.signs {
                 0 => coin,
                 1 => false,
                 2 => !coin,

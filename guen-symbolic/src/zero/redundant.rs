@@ -10,7 +10,7 @@ use core::cmp::Reverse;
 use f256::f256;
 
 use super::manifold::solve_dense;
-use super::positions::{Drawn, Equations, dot};
+use super::positions::{Drawn, MotionEquations, dot};
 use super::real::{Real, RealPoint, exponent};
 use crate::algebra::{ExprId, Function, Graph};
 
@@ -48,7 +48,7 @@ struct Point {
 /// The equations that follow from others wherever all hold; none where that is not observed.
 pub(super) fn find(graph: &mut Graph, equations: &[ExprId]) -> Vec<Redundant> {
     let count = equations.len();
-    let equations = Equations::new(graph, equations);
+    let equations = MotionEquations::new(graph, equations);
     let mut points: Vec<Point> = Vec::new();
     for start in 0..(MOST_WORK / (count * count * count)).clamp(POINTS, MOST_STARTS) {
         let drawn = RealPoint::new(start as u64);
@@ -88,7 +88,7 @@ pub(super) fn find(graph: &mut Graph, equations: &[ExprId]) -> Vec<Redundant> {
     left.map(|equation| Redundant { equation, beside: beside(&points, chosen, equation) }).collect()
 }
 
-impl Equations<'_> {
+impl MotionEquations<'_> {
     /// The gradients by the coordinates, in units of their lengths where the search began: of its own length every gradient would
     /// seem to be long, even one that vanishes.
     fn gradients(&self, x: &[f64], drawn: Drawn<'_>) -> Vec<Vec<f64>> {

@@ -2,7 +2,7 @@
 
 use super::field::{self, PRIME, Point, add, inverse, mix, mul, neg, sub};
 use super::table::{Op, Table};
-use crate::algebra::{Bound, ExprId, FastMap, Function, Graph, Multivariate, SymbolId};
+use crate::algebra::{ExprId, FastMap, Function, Graph, Multivariate, SignBound, SymbolId};
 
 // What a draw is for: each purpose has its own stream.
 const OF_SYMBOL: u64 = 1;
@@ -76,10 +76,10 @@ impl Sample {
         let value = self.draw(OF_SYMBOL, symbol.index() as u64);
         match graph.symbol_info(symbol).bound {
             _ if self.is_unbound => value,
-            Bound::Free | Bound::NonZero if !self.squares => value,
-            Bound::Free | Bound::NonZero => mul(value, value),
-            Bound::Positive | Bound::NonNegative => mul(value, value),
-            Bound::Negative | Bound::NonPositive => neg(mul(value, value)),
+            SignBound::Free | SignBound::NonZero if !self.squares => value,
+            SignBound::Free | SignBound::NonZero => mul(value, value),
+            SignBound::Positive | SignBound::NonNegative => mul(value, value),
+            SignBound::Negative | SignBound::NonPositive => neg(mul(value, value)),
         }
     }
 

@@ -7,7 +7,7 @@ use manifolds::quaternion;
 
 use super::Verdict::{Nonzero, Unknown, Zero};
 use super::*;
-use crate::algebra::{Bound, Function, Rational, Role};
+use crate::algebra::{Function, Rational, Role, SignBound};
 
 /// A graph with a test, and expressions written shortly.
 struct Bench {
@@ -25,7 +25,7 @@ impl Bench {
     }
 
     fn positive(&mut self, name: &str) -> ExprId {
-        self.g.bounded_symbol(name, Role::Constant, Bound::Positive)
+        self.g.bounded_symbol(name, Role::Constant, SignBound::Positive)
     }
 
     fn f(&mut self, function: Function, x: ExprId) -> ExprId {

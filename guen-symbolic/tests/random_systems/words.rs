@@ -1,6 +1,6 @@
 //! The functions that drawn systems are made of: trigonometric and polynomial in `t`, `x` and constants.
 
-use guen_symbolic::{Bound, ExprId, Graph, Rational, Role};
+use guen_symbolic::{ExprId, Graph, Rational, Role, SignBound};
 
 use crate::draw::Draw;
 
@@ -33,8 +33,8 @@ impl Words {
         let accelerations = family("deta", n, Role::QuasiAcceleration);
         let inputs = family("u", 1, Role::Input);
         let constants = vec![
-            graph.bounded_symbol("k1", Role::Constant, Bound::Positive),
-            graph.bounded_symbol("k2", Role::Constant, Bound::Free),
+            graph.bounded_symbol("k1", Role::Constant, SignBound::Positive),
+            graph.bounded_symbol("k2", Role::Constant, SignBound::Free),
         ];
         Words { graph, draw, time, x, velocities, etas, accelerations, constants, inputs, timed: true }
     }

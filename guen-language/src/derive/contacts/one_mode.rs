@@ -9,7 +9,7 @@ mod written;
 use guen_symbolic::{ExprId, Substitution, SymbolId, chosen_rates, independent_rows};
 
 use super::ContactFacts;
-use crate::derive::level::{Derived, DerivedLevel};
+use crate::derive::level::{DerivedLevel, DerivedSystem};
 use crate::derive::selections::selection::StatePart;
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{self, ContactState, Contacts, Model, SceneEntry, nominal};
@@ -33,7 +33,7 @@ pub(in crate::derive) fn derive<'a>(
     model: &mut Model<'a>,
     system: &DerivedLevel,
     faults: &mut Faults,
-) -> Vec<(usize, Derived<'a>)> {
+) -> Vec<(usize, DerivedSystem<'a>)> {
     let scenes = std::mem::take(&mut model.scenes);
     let mut written: Vec<(usize, Declaration)> = Vec::new();
     if let (Some(contacts), Some(facts)) = (model.contacts.take(), &system.contacts) {

@@ -7,7 +7,7 @@
 //! slip reaches the row that loads it and no other such row, and this row is a block by itself, `p = D_nn - mu D_nt d > 0` is left to prove.
 
 use guen_symbolic::{
-    Bound, ExprId, Function, Graph, Limits, Node, Rational, Role, Substitution, Verdict, Workbench,
+    ExprId, Function, Graph, Limits, Node, Rational, Role, SignBound, Substitution, Verdict, Workbench,
     normal_coefficients, normal_form,
 };
 
@@ -257,7 +257,7 @@ impl<'m> Signs<'m> {
             }
             for (place, speed) in speeds.iter().enumerate() {
                 let name = format!("magnitude of {place}");
-                pairs.push((*speed, graph.bounded_symbol(&name, Role::Input, Bound::NonNegative)));
+                pairs.push((*speed, graph.bounded_symbol(&name, Role::Input, SignBound::NonNegative)));
             }
             Substitution::new(pairs)
         })

@@ -1,6 +1,6 @@
 //! The Taylor series of a level: its recurrences, and what has none.
 
-use guen_symbolic::{Multivariate, Operation, Programs, SeriesProgram, Source, SymbolId};
+use guen_symbolic::{Multivariate, Operation, Programs, SeriesProgram, SymbolId, SymbolInStep};
 use proc_macro2::Span;
 
 use crate::derive::function;
@@ -29,9 +29,9 @@ pub(in crate::derive) fn of(
         |symbols: &[Option<SymbolId>], symbol| symbols.iter().position(|known| *known == Some(symbol));
     let source = |symbol: SymbolId| {
         if Some(symbol) == time {
-            return Source::Time;
+            return SymbolInStep::Time;
         }
-        place(&variables, symbol).map_or(Source::Still, Source::State)
+        place(&variables, symbol).map_or(SymbolInStep::Still, SymbolInStep::State)
     };
     let held = match SeriesProgram::new(rates, source) {
         Ok(series) => series,
@@ -67,7 +67,7 @@ pub(in crate::derive) fn of(
     }
     let inputs: Vec<Option<SymbolId>> =
         selection.inputs.iter().map(|u| graph.as_symbol(model.mechanics.inputs[*u])).collect();
-    let moving = |symbol| place(&inputs, symbol).map_or_else(|| source(symbol), Source::Input);
+    let moving = |symbol| place(&inputs, symbol).map_or_else(|| source(symbol), SymbolInStep::Input);
     let along_inputs = (!inputs.is_empty())
         .then(|| SeriesProgram::new(rates, moving).ok())
         .flatten()

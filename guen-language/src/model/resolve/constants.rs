@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use guen_symbolic::{Bound, ExprId, Role, Roles};
+use guen_symbolic::{ExprId, Role, Roles, SignBound};
 
 use super::Resolver;
 use crate::diagnostics::Fault;
@@ -16,10 +16,10 @@ impl<'a> Resolver<'a, '_> {
     pub(super) fn constant(&mut self, constant: &'a Constant) {
         let bound = constant.bound.map(|bound| bound.kind);
         let promise = match bound {
-            None => Bound::Free,
-            Some(BoundKind::Positive) => Bound::Positive,
-            Some(BoundKind::Nonnegative) => Bound::NonNegative,
-            Some(BoundKind::Nonzero) => Bound::NonZero,
+            None => SignBound::Free,
+            Some(BoundKind::Positive) => SignBound::Positive,
+            Some(BoundKind::Nonnegative) => SignBound::NonNegative,
+            Some(BoundKind::Nonzero) => SignBound::NonZero,
         };
         self.eval.entry = Some(constant.name.text.clone());
         let is_degrees = constant.unit.as_ref().is_some_and(|unit| unit.is_degrees);
@@ -33,8 +33,8 @@ impl<'a> Resolver<'a, '_> {
             self.check_limited_default(*value, limits, written);
         }
         let promise = limits.map_or(promise, |[lower, _]| match self.eval.bench.graph.as_number(lower) {
-            Some(number) if number.is_zero() => Bound::NonNegative,
-            Some(number) if !number.is_negative() => Bound::Positive,
+            Some(number) if number.is_zero() => SignBound::NonNegative,
+            Some(number) if !number.is_negative() => SignBound::Positive,
             _ => promise,
         });
         let graph = &mut self.eval.bench.graph;

@@ -13,7 +13,7 @@ use coefficients::Loading;
 
 use super::*;
 use crate::limits::MAX_CONTACTS;
-use crate::model::contact::{ContactEntry, ContactKind, Row, SwitchEntry};
+use crate::model::contact::{ContactEntry, ContactKind, ContactRow, SwitchEntry};
 use crate::model::value::ContactValue;
 use crate::syntax::{Clause, ClauseWord, Contact, StatesType, Switch, type_of_states};
 
@@ -97,7 +97,7 @@ impl<'a> Resolver<'a, '_> {
     /// A contact as outputs see it.
     fn value_of(&self, entry: &ContactEntry<'_>) -> ContactValue {
         let zero = self.eval.bench.graph.zero();
-        let of_rows = |rows: &[Row], of: fn(&Row) -> ExprId| match rows {
+        let of_rows = |rows: &[ContactRow], of: fn(&ContactRow) -> ExprId| match rows {
             [row] => Value::Scalar(of(row)),
             _ => Value::Vector(std::array::from_fn(|i| rows.get(i).map_or(zero, of))),
         };
@@ -248,7 +248,7 @@ impl<'a> Resolver<'a, '_> {
         };
         let rows = rows.into_iter().enumerate().map(|(i, form)| {
             let force = graph.symbol(&format!("force {i} of {name}"), Role::Input);
-            Row { form, force }
+            ContactRow { form, force }
         });
         let entry = ContactEntry {
             name: &contact.name,

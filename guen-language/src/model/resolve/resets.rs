@@ -1,7 +1,7 @@
 //! `resets`: functions whose zeros are located, and the variables that have new values there.
 
 use super::*;
-use crate::syntax::{Assignment, Reset};
+use crate::syntax::{Reset, ResetAssignment};
 
 /// The variables that a reset changes, for notes.
 const VARIABLES: &str = "a reset gives new values to coordinates, parameters and states";
@@ -59,7 +59,7 @@ impl<'a> Resolver<'a, '_> {
     }
 
     /// The value of what stands left of `=`: a variable, or a vector of variables.
-    fn variable(&mut self, given: &Assignment) -> Evaluated<Value> {
+    fn variable(&mut self, given: &ResetAssignment) -> Evaluated<Value> {
         let written = &given.variable;
         let fault = |text: String| Fault::new(written.extent(), text).note(VARIABLES);
         let name = match &written.kind {
@@ -91,7 +91,7 @@ impl<'a> Resolver<'a, '_> {
     }
 
     /// The symbols of variables with their values.
-    fn pairs(&mut self, given: &Assignment, variable: &Value, value: &Value) -> Vec<(ExprId, ExprId)> {
+    fn pairs(&mut self, given: &ResetAssignment, variable: &Value, value: &Value) -> Vec<(ExprId, ExprId)> {
         let pairs: Vec<(ExprId, ExprId)> = match (variable, value) {
             (Value::Scalar(variable), Value::Scalar(value)) => vec![(*variable, *value)],
             (Value::Vector(variable), Value::Vector(value)) => {

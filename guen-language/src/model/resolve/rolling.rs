@@ -1,6 +1,6 @@
 //! Heights of points of contact whose rates are components of the velocity that a body has there.
 
-use guen_symbolic::{Component, FormShape, FrameId, Motion, Place, Velocity};
+use guen_symbolic::{FormShape, FrameId, Motion, Place, Velocity, VelocityComponent};
 
 use crate::model::evaluate::Evaluator;
 use crate::model::forms::RawForm;
@@ -15,7 +15,8 @@ pub(super) fn join(eval: &mut Evaluator<'_>, raw: &mut [RawForm<'_>], degrees: u
     }
     let mut rolling: Vec<Velocity> = Vec::new();
     for form in &raw[degrees..] {
-        let Some([Component { velocity, .. }]) = form.shape.as_ref().map(|shape| &shape.components[..])
+        let Some([VelocityComponent { velocity, .. }]) =
+            form.shape.as_ref().map(|shape| &shape.components[..])
         else {
             continue;
         };
@@ -46,7 +47,7 @@ pub(super) fn join(eval: &mut Evaluator<'_>, raw: &mut [RawForm<'_>], degrees: u
             if let Some(place) = places[k] {
                 let graph = &eval.bench.graph;
                 let direction = Place::in_axes(graph, FrameId::WORLD, axis(graph, k));
-                let components = vec![Component { direction, velocity: velocity.clone() }];
+                let components = vec![VelocityComponent { direction, velocity: velocity.clone() }];
                 raw[degrees + place].shape = Some(FormShape { components, rest: graph.zero() });
             }
         }
@@ -60,7 +61,7 @@ pub(super) fn join(eval: &mut Evaluator<'_>, raw: &mut [RawForm<'_>], degrees: u
 fn component<'f>(eval: &Evaluator<'_>, form: &'f RawForm<'_>) -> Option<(usize, &'f Velocity)> {
     let graph = &eval.bench.graph;
     let shape = form.shape.as_ref().filter(|shape| graph.is_zero(shape.rest))?;
-    let [Component { direction, velocity }] = &shape.components[..] else { return None };
+    let [VelocityComponent { direction, velocity }] = &shape.components[..] else { return None };
     let k = (0..3).find(|k| *direction == Place::in_axes(graph, FrameId::WORLD, axis(graph, *k)))?;
     Some((k, velocity))
 }

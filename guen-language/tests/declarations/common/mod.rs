@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use guen_language::derive::{Derived, DerivedLevel, derive};
+use guen_language::derive::{DerivedLevel, DerivedSystem, derive};
 use guen_language::diagnostics::collect;
 use guen_language::{model, parse};
 use guen_symbolic::{REFUTED, SymbolId, evaluate_function, evaluate_prepare, formulation_names};
@@ -31,7 +31,7 @@ pub fn by_two_threads<I: Sync, T: Send>(all: &[I], look: impl Fn(&I) -> T + Sync
 }
 
 /// Looks at what follows from a declaration in which nothing is wrong.
-pub fn derived<T>(text: &str, look: impl FnOnce(&Derived<'_>) -> T) -> T {
+pub fn derived<T>(text: &str, look: impl FnOnce(&DerivedSystem<'_>) -> T) -> T {
     derived_without(text, |_| false, look)
 }
 
@@ -39,7 +39,7 @@ pub fn derived<T>(text: &str, look: impl FnOnce(&Derived<'_>) -> T) -> T {
 pub fn derived_without<T>(
     text: &str,
     is_left_out: impl Fn(&str) -> bool,
-    look: impl FnOnce(&Derived<'_>) -> T,
+    look: impl FnOnce(&DerivedSystem<'_>) -> T,
 ) -> T {
     let (declaration, report) = parse::parse(text.parse().expect("tokens"));
     assert!(report.is_empty(), "{}\n{text}", report.to_compile_errors());

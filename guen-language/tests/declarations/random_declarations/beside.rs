@@ -1,7 +1,7 @@
 //! What is emitted beside the rates of a drawn declaration, against its meaning: forms, momenta, the energy integral and its rate, slopes of
 //! positions, poses, reactions as a covector, operators with their brackets, and linearisations.
 
-use guen_language::derive::{Derived, DerivedLevel, function};
+use guen_language::derive::{DerivedLevel, DerivedSystem, function};
 use guen_language::model::Model;
 use guen_symbolic::{ExprId, Pattern, SymbolId, evaluate_function, evaluate_prepare};
 
@@ -273,7 +273,7 @@ fn size(list: &[f64]) -> f64 {
     list.iter().fold(1.0, |most, e| most.max(e.abs()))
 }
 
-fn look_at(derived: &Derived<'_>, seed: u64) -> Seen {
+fn look_at(derived: &DerivedSystem<'_>, seed: u64) -> Seen {
     let (model, level) = (&derived.model, &derived.system);
     let numbers = numbers(derived);
     let declared = &numbers.declared;

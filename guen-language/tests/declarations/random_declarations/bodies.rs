@@ -5,7 +5,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use guen_language::derive::{Derived, derive, function};
+use guen_language::derive::{DerivedSystem, derive, function};
 use guen_language::diagnostics::collect;
 use guen_language::{model, parse};
 use guen_symbolic::{ExprId, SymbolId};
@@ -63,7 +63,7 @@ impl Seen {
 
 /// What a declaration ends with: what follows from it, or what is said of it and whether multipliers solve it all the same.
 enum End<T> {
-    Derived(T),
+    DerivedSystem(T),
     Refused { message: String, is_solvable: bool },
 }
 
@@ -76,7 +76,7 @@ fn are_independent(declared: &Declared<'_>, point: &[f64]) -> bool {
     singular.max() < CLEAR * singular.min()
 }
 
-fn ended<T>(text: &str, seed: u64, look: impl FnOnce(&Derived<'_>) -> T) -> End<T> {
+fn ended<T>(text: &str, seed: u64, look: impl FnOnce(&DerivedSystem<'_>) -> T) -> End<T> {
     let (declaration, report) = parse::parse(text.parse().expect("tokens"));
     let declaration = declaration.unwrap_or_else(|| panic!("{}", report.to_compile_errors()));
     let mut is_solvable = false;
@@ -96,7 +96,7 @@ fn ended<T>(text: &str, seed: u64, look: impl FnOnce(&Derived<'_>) -> T) -> End<
         derived
     });
     match derived {
-        Some(derived) => End::Derived(look(&derived)),
+        Some(derived) => End::DerivedSystem(look(&derived)),
         None => {
             let fault = report.faults().first().expect("a reason");
             End::Refused { message: fault.message().to_owned(), is_solvable }
@@ -105,7 +105,7 @@ fn ended<T>(text: &str, seed: u64, look: impl FnOnce(&Derived<'_>) -> T) -> End<
 }
 
 /// The largest difference from the multipliers, the states that were looked at, and what is wrong.
-fn difference(derived: &Derived<'_>, seed: u64) -> (f64, usize, Option<String>) {
+fn difference(derived: &DerivedSystem<'_>, seed: u64) -> (f64, usize, Option<String>) {
     let model = &derived.model;
     let symbol = |e: ExprId| model.bench.graph.as_symbol(e).expect("a symbol");
     let Numbers { declared, coordinates, held } = numbers_of(model);
@@ -150,14 +150,14 @@ fn difference(derived: &Derived<'_>, seed: u64) -> (f64, usize, Option<String>) 
     (worst, states, None)
 }
 
-fn operations(derived: &Derived<'_>) -> u64 {
+fn operations(derived: &DerivedSystem<'_>) -> u64 {
     derived.system.program(function::RHS).map_or(0, |rhs| rhs.cost.weighted())
 }
 
 /// The operations of the rates with bounds on some constants; none if they are refused.
 fn cost(mechanism: &Mechanism, seed: u64, is_bounded: impl Fn(usize) -> bool) -> Option<u64> {
     match ended(&mechanism.text(is_bounded), seed, operations) {
-        End::Derived(cost) => Some(cost),
+        End::DerivedSystem(cost) => Some(cost),
         End::Refused { .. } => None,
     }
 }
@@ -175,7 +175,7 @@ fn looked_at(seed: u64) -> Seen {
             }
             seen.messages.push(message);
         }
-        End::Derived((without, (worst, states, fault))) => {
+        End::DerivedSystem((without, (worst, states, fault))) => {
             seen.accepted += 1;
             seen.states += states;
             seen.unseen += usize::from(states == 0);

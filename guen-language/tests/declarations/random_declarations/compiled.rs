@@ -1,6 +1,6 @@
 //! Some drawn declarations with their scenes as a file of `tests/scenes`, where the compiler sees what is emitted for them.
 
-use guen_language::derive::Derived;
+use guen_language::derive::DerivedSystem;
 use guen_symbolic::evaluate_f64;
 
 use super::draw::Draw;
@@ -15,7 +15,7 @@ const STATES: usize = 3;
 const HEAD: &str = "//! Written by `GUEN_BLESS=1 cargo test -p guen-language --test declarations random_declarations::compiled`.\n";
 
 /// The scenes of a declaration, each with its constants and some states of the whole system.
-fn compared(derived: &Derived<'_>, seed: u64) -> String {
+fn compared(derived: &DerivedSystem<'_>, seed: u64) -> String {
     let model = &derived.model;
     let Numbers { declared, held, .. } = numbers(derived);
     let mut draw = Draw::new(seed.rotate_left(5));

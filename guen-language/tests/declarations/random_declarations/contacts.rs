@@ -1,6 +1,6 @@
 //! Drawn declarations with switches, contacts and resets: the programs that runs through modes are made of, against their meaning.
 
-use guen_language::derive::{Derived, DerivedLevel, function};
+use guen_language::derive::{DerivedLevel, DerivedSystem, function};
 use guen_language::model::ContactEntry;
 use guen_symbolic::SymbolId;
 
@@ -118,7 +118,12 @@ impl Motion {
 }
 
 /// The programs of a system, or of a scene that runs through modes, at states that are drawn of these numbers.
-pub fn look_at(derived: &Derived<'_>, level: &DerivedLevel, on: &Declared<'_>, draw: &mut Draw) -> Seen {
+pub fn look_at(
+    derived: &DerivedSystem<'_>,
+    level: &DerivedLevel,
+    on: &Declared<'_>,
+    draw: &mut Draw,
+) -> Seen {
     let model = &derived.model;
     let graph = &model.bench.graph;
     let symbol = |e| graph.as_symbol(e).expect("a symbol");

@@ -1,7 +1,7 @@
 //! Families drawn at random, each written twice: by counts, arrays, loops and sums, and member by member, as the generator here
 //! writes loops out. Both have equal programs to the bit, and what the second means is computed from its tree.
 
-use guen_language::derive::{Derived, function};
+use guen_language::derive::{DerivedSystem, function};
 use guen_symbolic::{ExprId, SymbolId};
 
 use super::difference;
@@ -167,7 +167,7 @@ fn sums_of_rows(entries: &[String], n: usize) -> String {
 }
 
 /// The values of every program of a derivation where its symbols, in the order of their declaration, have fixed values.
-pub(super) fn values(derived: &Derived<'_>) -> (Vec<String>, Vec<Vec<u64>>) {
+pub(super) fn values(derived: &DerivedSystem<'_>) -> (Vec<String>, Vec<Vec<u64>>) {
     let model = &derived.model;
     let symbol = |e: ExprId| model.bench.graph.as_symbol(e);
     let mechanics = &model.mechanics;

@@ -1,7 +1,7 @@
 //! Scenes drawn at random for drawn declarations: their rates, energies, outputs and reactions are those of the whole system,
 //! they have all that their items read, and their right-hand sides never cost more.
 
-use guen_language::derive::{Derived, DerivedLevel, function};
+use guen_language::derive::{DerivedLevel, DerivedSystem, function};
 use guen_symbolic::{ExprId, Role, SymbolId};
 
 use super::draw::Draw;
@@ -61,7 +61,7 @@ fn missing(level: &DerivedLevel) -> Option<String> {
     wrong.next().map(|(name, wanted)| format!("{} of {wanted} results of `{name}`", count(name)))
 }
 
-fn looked_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
+fn looked_at(text: &str, derived: &DerivedSystem<'_>, seed: u64) -> Seen {
     let model = &derived.model;
     let graph = &model.bench.graph;
     let symbol = |e: ExprId| graph.as_symbol(e).expect("a symbol");

@@ -35,7 +35,7 @@ mod series;
 mod several;
 mod space;
 
-use guen_language::derive::{Derived, DerivedLevel, function};
+use guen_language::derive::{DerivedLevel, DerivedSystem, function};
 use guen_language::model::{self, Model};
 use guen_symbolic::{ExprId, Graph, SymbolId, evaluate_f64};
 
@@ -82,7 +82,7 @@ impl Numbers<'_> {
     }
 }
 
-fn numbers<'a>(derived: &Derived<'a>) -> Numbers<'a> {
+fn numbers<'a>(derived: &DerivedSystem<'a>) -> Numbers<'a> {
     numbers_of(&derived.model)
 }
 
@@ -104,7 +104,7 @@ fn numbers_of<'a>(model: &Model<'a>) -> Numbers<'a> {
 }
 
 /// The largest difference between the programs of a declaration and its meaning, and how many states were looked at.
-fn difference(text: &str, derived: &Derived<'_>, seed: u64) -> (f64, usize) {
+fn difference(text: &str, derived: &DerivedSystem<'_>, seed: u64) -> (f64, usize) {
     let model = &derived.model;
     let graph = &model.bench.graph;
     let symbol = |e: ExprId| graph.as_symbol(e).expect("a symbol");
@@ -178,7 +178,7 @@ fn difference(text: &str, derived: &Derived<'_>, seed: u64) -> (f64, usize) {
 /// `by_velocities`, along the displacements.
 fn equations_apart(
     text: &str,
-    derived: &Derived<'_>,
+    derived: &DerivedSystem<'_>,
     values: &[(SymbolId, f64)],
     by_velocities: &[f64],
     unit: f64,

@@ -1,7 +1,7 @@
 //! Taylor series of drawn declarations: a series `p(s)` of order `n` is right if and only if `p'(s) - f(p(s)) = O(s^n)`, with the rates `f` of
 //! the program that other tests compare with its meaning.
 
-use guen_language::derive::{Derived, derive, function};
+use guen_language::derive::{DerivedSystem, derive, function};
 use guen_language::diagnostics::collect;
 use guen_language::{model, parse};
 use guen_symbolic::{Arithmetic, Operation, SeriesProgram, SeriesStep, Start, SymbolId, evaluate_prepare};
@@ -105,7 +105,7 @@ struct Seen {
     worst: f64,
 }
 
-fn look_at(text: &str, derived: &Derived<'_>, draw: &mut Draw) -> Seen {
+fn look_at(text: &str, derived: &DerivedSystem<'_>, draw: &mut Draw) -> Seen {
     let (model, level) = (&derived.model, &derived.system);
     let symbol = |e| model.bench.graph.as_symbol(e).expect("a symbol");
     let series = level.series.as_ref().expect("a series");

@@ -2,7 +2,7 @@
 //! of the scene are those of the whole system. Modes in which something holds, and nothing slips in space, move as the mechanism with these
 //! constraints and with friction.
 
-use guen_language::derive::{Derived, DerivedLevel, derive, function};
+use guen_language::derive::{DerivedLevel, DerivedSystem, derive, function};
 use guen_language::diagnostics::collect;
 use guen_language::model::{self, ContactState};
 use guen_language::parse;
@@ -49,7 +49,7 @@ fn scene(draw: &mut Draw, declaration: &Declaration) -> String {
 }
 
 /// What holds in all modes of a level.
-fn resting(derived: &Derived<'_>, level: &DerivedLevel) -> Mode {
+fn resting(derived: &DerivedSystem<'_>, level: &DerivedLevel) -> Mode {
     let model = &derived.model;
     let modes = &level.contacts.as_ref().expect("contacts").modes;
     let entries = model.contacts.iter().flat_map(|contacts| &contacts.entries).enumerate();
@@ -76,7 +76,7 @@ struct Seen {
     held: Vec<held::Seen>,
 }
 
-fn look_at(derived: &Derived<'_>, draw: &mut Draw) -> Seen {
+fn look_at(derived: &DerivedSystem<'_>, draw: &mut Draw) -> Seen {
     let model = &derived.model;
     let Some(level) = derived.scenes.first() else { return Seen::default() };
     let Some(facts) = &level.contacts else { return Seen::default() };

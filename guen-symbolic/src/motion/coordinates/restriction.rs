@@ -13,7 +13,7 @@
 //! constraint stays as far off it.
 
 use crate::algebra::{ExprId, FastMap, Flow, Function, Node, Rational, Role, Roles, Substitution};
-use crate::motion::{Equations, Mechanics};
+use crate::motion::{Mechanics, MotionEquations};
 use crate::normal::{Limits, normal_coefficients, normal_form};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
@@ -192,8 +192,8 @@ fn stays(
 pub(in crate::motion) fn restricted(
     bench: &mut Workbench,
     system: &Mechanics,
-    mut equations: Equations,
-) -> Equations {
+    mut equations: MotionEquations,
+) -> MotionEquations {
     if system.holonomic.is_empty() {
         return equations;
     }
@@ -255,7 +255,7 @@ pub(in crate::motion) fn written_out(bench: &mut Workbench, e: ExprId) -> ExprId
 #[cfg(test)]
 mod tests {
     use super::{Restriction, split, stays};
-    use crate::algebra::{Bound, ExprId, FastMap, Graph, Rational, Role, SymbolId};
+    use crate::algebra::{ExprId, FastMap, Graph, Rational, Role, SignBound, SymbolId};
     use crate::workbench::Workbench;
     use crate::zero::evaluate;
 
@@ -282,7 +282,7 @@ mod tests {
     #[test]
     fn powers_of_what_is_constant_are_taken_out() {
         let (mut bench, mut restriction, x) = sphere(&["x", "y"], |graph| {
-            let l = graph.bounded_symbol("l", Role::Constant, Bound::Positive);
+            let l = graph.bounded_symbol("l", Role::Constant, SignBound::Positive);
             graph.powi(l, 2)
         });
         let square = bench.dot(&x, &x);
@@ -332,7 +332,7 @@ mod tests {
     #[test]
     fn radicands_become_homogeneous_on_a_circle_of_any_size() {
         let (mut bench, mut restriction, x) = sphere(&["x", "y"], |graph| {
-            let l = graph.bounded_symbol("l", Role::Constant, Bound::Positive);
+            let l = graph.bounded_symbol("l", Role::Constant, SignBound::Positive);
             graph.powi(l, 2)
         });
         let l2 = restriction.constants[0].1;

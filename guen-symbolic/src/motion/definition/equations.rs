@@ -9,14 +9,14 @@ use crate::workbench::Workbench;
 
 /// `sum_t M_st eta_t' = f_s`.
 #[derive(Clone, Debug)]
-pub struct Equations {
+pub struct MotionEquations {
     /// `M_st`, a row for each equation, a column for each `eta_t'`.
     pub mass: Vec<Vec<ExprId>>,
     /// `f_s`.
     pub forces: Vec<ExprId>,
 }
 
-impl Equations {
+impl MotionEquations {
     /// Returns all entries: the mass matrix row by row, then the forces.
     pub(in crate::motion) fn entries(&self) -> Vec<ExprId> {
         self.mass.iter().flatten().chain(&self.forces).copied().collect()
@@ -30,13 +30,13 @@ impl Equations {
 
     /// Cuts off the rows from some place on.
     pub(in crate::motion) fn split_off(&mut self, place: usize) -> Self {
-        Equations { mass: self.mass.split_off(place), forces: self.forces.split_off(place) }
+        MotionEquations { mass: self.mass.split_off(place), forces: self.forces.split_off(place) }
     }
 
     /// Appends other equations.
-    pub(in crate::motion) fn and(&self, others: &Equations) -> Self {
+    pub(in crate::motion) fn and(&self, others: &MotionEquations) -> Self {
         let mass = [&self.mass[..], &others.mass].concat();
-        Equations { mass, forces: [&self.forces[..], &others.forces].concat() }
+        MotionEquations { mass, forces: [&self.forces[..], &others.forces].concat() }
     }
 
     /// The equations with the generalised forces.
@@ -51,7 +51,7 @@ impl Equations {
     pub(in crate::motion) fn undriven(&self, bench: &mut Workbench, generalised_forces: &[ExprId]) -> Self {
         let forces = self.forces.iter().zip(generalised_forces);
         let forces = forces.map(|(force, q)| bench.graph.sub(*force, *q)).collect();
-        Equations { mass: self.mass.clone(), forces }
+        MotionEquations { mass: self.mass.clone(), forces }
     }
 
     pub(in crate::motion) fn cost(&self, bench: &Workbench) -> u64 {
@@ -64,9 +64,9 @@ impl Equations {
 pub(in crate::motion) fn forms(
     bench: &mut Workbench,
     system: &Mechanics,
-    by_definition: &Equations,
-    by_projection: &Equations,
-) -> Vec<Equations> {
+    by_definition: &MotionEquations,
+    by_projection: &MotionEquations,
+) -> Vec<MotionEquations> {
     let l = system.forms.degrees;
     let mut entry = |s: usize, t: usize| {
         // Both routes give the same function.
@@ -83,7 +83,7 @@ pub(in crate::motion) fn forms(
     if lists.is_empty() || weighted_cost(&bench.graph, sources[0]) <= FURTHER_FORMS {
         lists.push(sources[0].to_vec());
     }
-    lists.into_iter().map(|forces| Equations { mass: mass.clone(), forces }).collect()
+    lists.into_iter().map(|forces| MotionEquations { mass: mass.clone(), forces }).collect()
 }
 
 /// Every force as a polynomial in the `eta` with coefficients in normal form, where all are small.

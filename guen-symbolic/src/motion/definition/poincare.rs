@@ -1,7 +1,7 @@
 //! The equations of motion (2.7), literally: the definition, and the oracle for the other route.
 
 use crate::algebra::{ExprId, Flow, Substitution};
-use crate::motion::{Equations, Frame, Mechanics};
+use crate::motion::{Frame, Mechanics, MotionEquations};
 use crate::workbench::Workbench;
 
 /// `sum_t M_st eta_t' = f_s` for `s = 1..l` without the generalised forces `Q_s`, before any simplification, from
@@ -10,7 +10,7 @@ use crate::workbench::Workbench;
 /// d/dt dT/d eta_s - X_s(T + U) - sum_{t<=l} (C_0st + sum_r eta_r C_rst) dT/d eta_t
 ///                              - sum_{v>l}  (C_0sv + sum_r eta_r C_rsv) (dT°/d eta_v) = Q_s.       (2.7)
 /// ```
-pub fn equations(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -> Equations {
+pub fn equations(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -> MotionEquations {
     let l = system.forms.degrees;
     let Energy { kinetic, momenta } = Energy::new(bench, system, frame);
     let lagrangian = bench.graph.add(kinetic, system.force_function);
@@ -31,7 +31,7 @@ pub fn equations(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -
         }
         forces.push(bench.graph.sum(terms));
     }
-    Equations { mass, forces }
+    MotionEquations { mass, forces }
 }
 
 /// `T°`, with every parameter free, and `T`, on the constraints.

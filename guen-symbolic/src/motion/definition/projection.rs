@@ -19,7 +19,7 @@ use core::ops::Range;
 use crate::algebra::{ExprId, FastMap, Flow, Graph, Node, Rational};
 use crate::geometry::{MANY_COORDINATES, is_nested};
 use crate::motion::quasi_velocities::velocity_forms::VelocityPartials;
-use crate::motion::{Equations, Frame, KineticTerm, Mechanics, VelocityForm};
+use crate::motion::{Frame, KineticTerm, Mechanics, MotionEquations, VelocityForm};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -57,7 +57,7 @@ pub(in crate::motion) struct Squares {
 /// The equations of a route, and what they were multiplied out from.
 pub(in crate::motion) struct Projected {
     /// `sum_t M_st eta_t' = f_s` for the rows asked for, without the generalised forces.
-    pub(in crate::motion) equations: Equations,
+    pub(in crate::motion) equations: MotionEquations,
     /// `None` where the energy is no sum of squares with constant masses.
     pub(in crate::motion) squares: Option<Squares>,
     /// The forms of the energy.
@@ -100,7 +100,7 @@ pub(in crate::motion) fn assemble(
     motion: &mut Flow,
     terms: &[KineticTerm],
     forms: &MeasuredForms,
-) -> (Equations, Vec<Vec<ExprId>>) {
+) -> (MotionEquations, Vec<Vec<ExprId>>) {
     let (l, rows) = (system.forms.degrees, displacements.len());
     let mut mass: Vec<Vec<Vec<ExprId>>> = vec![vec![Vec::new(); l]; rows];
     let mut forces: Vec<Vec<ExprId>> = vec![Vec::new(); rows];
@@ -152,7 +152,7 @@ pub(in crate::motion) fn assemble(
             }
         }
     }
-    let equations = Equations {
+    let equations = MotionEquations {
         mass: mass
             .into_iter()
             .map(|row| row.into_iter().map(|terms| bench.graph.sum(terms)).collect())

@@ -4,7 +4,7 @@ use super::lagrange::{Lagrange, Point};
 use super::poincare;
 use crate::algebra::ExprId;
 use crate::motion::fault::DerivationError;
-use crate::motion::{Equations, Frame, Mechanics};
+use crate::motion::{Frame, Mechanics, MotionEquations};
 use crate::workbench::Workbench;
 use crate::zero::field::{add, mul, sub};
 use crate::zero::{FEWEST_POINTS_WITH_ROOTS, REDRAWS};
@@ -18,7 +18,7 @@ const PROOF_POINTS_WITH_SIGNS: usize = 12;
 pub(in crate::motion) struct Definition {
     at_points: Lagrange,
     /// The equations by definition, without the generalised forces, once they were asked for.
-    written: Option<Equations>,
+    written: Option<MotionEquations>,
     /// The generalised force of each row.
     generalised_forces: Vec<ExprId>,
 }
@@ -49,7 +49,7 @@ impl Definition {
         bench: &mut Workbench,
         system: &Mechanics,
         frame: &mut Frame,
-    ) -> &Equations {
+    ) -> &MotionEquations {
         self.written.get_or_insert_with(|| poincare::equations(bench, system, frame))
     }
 
@@ -59,7 +59,7 @@ impl Definition {
         &mut self,
         bench: &mut Workbench,
         (system, frame): (&Mechanics, &mut Frame),
-        equations: &Equations,
+        equations: &MotionEquations,
         on_manifold: bool,
     ) -> Result<bool, DerivationError> {
         let l = system.forms.degrees;
@@ -89,7 +89,7 @@ impl Definition {
         &self,
         bench: &mut Workbench,
         system: &Mechanics,
-        rows: &Equations,
+        rows: &MotionEquations,
         generalised_forces: &[ExprId],
     ) -> bool {
         let (n, l) = (system.forms.len(), system.forms.degrees);
@@ -131,7 +131,7 @@ impl Definition {
             let difference = bench.graph.sub(*own, *other);
             refuse(bench, difference, true, 0)?;
         }
-        let Equations { mass, forces } = self.written(bench, system, frame).clone();
+        let MotionEquations { mass, forces } = self.written(bench, system, frame).clone();
         for (equation, row) in mass.iter().enumerate() {
             let inertia = bench.dot(row, accelerations);
             let force = bench.graph.add(forces[equation], self.generalised_forces[equation]);
@@ -297,7 +297,7 @@ mod tests {
     }
 
     /// The frame of a system, and its equations by definition.
-    fn written(bench: &mut Workbench, system: &Mechanics) -> (Frame, Equations) {
+    fn written(bench: &mut Workbench, system: &Mechanics) -> (Frame, MotionEquations) {
         let operators = Operators::new(bench, &system.forms).ok().unwrap();
         let mut frame = Frame::new(bench, system, operators);
         let equations = poincare::equations(bench, system, &mut frame);
@@ -400,7 +400,7 @@ mod tests {
         let zero = bench.graph.zero();
         let mut definition = Definition::new(&mut bench, &plane, &[zero, zero]);
         assert_eq!(definition.is(&mut bench, (&plane, &mut frame), &right, true).ok(), Some(true));
-        let wrong = Equations { mass: right.mass, forces: vec![right.forces[1], right.forces[0]] };
+        let wrong = MotionEquations { mass: right.mass, forces: vec![right.forces[1], right.forces[0]] };
         assert!(definition.is(&mut bench, (&plane, &mut frame), &wrong, true).is_err());
         let rates = [&plane.etas[..], &wrong.forces].concat();
         assert!(definition.is_solved_by(&mut bench, (&plane, &mut frame), &rates).is_err());
@@ -457,13 +457,13 @@ mod tests {
         pendulum.holonomic.push(Holonomic { form: 1, equation: constraint });
         let (mut frame, own) = written(&mut bench, &pendulum);
         let force = bench.graph.div(own.forces[0], r);
-        let short = Equations { mass: vec![vec![r]], forces: vec![force] };
+        let short = MotionEquations { mass: vec![vec![r]], forces: vec![force] };
         let opposite = bench.graph.neg(force);
-        let wrong = Equations { mass: vec![vec![r]], forces: vec![opposite] };
+        let wrong = MotionEquations { mass: vec![vec![r]], forces: vec![opposite] };
         let zero = bench.graph.zero();
         let mut definition = Definition::new(&mut bench, &pendulum, &[zero]);
         bench.zero.set_manifold(&mut bench.graph, &[constraint]);
-        let mut is = |bench: &mut Workbench, equations: &Equations, on_manifold| {
+        let mut is = |bench: &mut Workbench, equations: &MotionEquations, on_manifold| {
             definition.is(bench, (&pendulum, &mut frame), equations, on_manifold).ok()
         };
         assert_eq!(is(&mut bench, &own, false), Some(true));

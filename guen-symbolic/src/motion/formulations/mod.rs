@@ -23,7 +23,7 @@ use super::fault::{DerivationError, affordable};
 use super::mass_matrix::weightless::solved;
 use super::quasi_velocities::velocity_forms::VelocityPartials;
 use super::thresholds::OTHER_WAYS;
-use super::{Equations, Frame, KineticTerm, Mechanics, Solution};
+use super::{Frame, KineticTerm, Mechanics, MotionEquations, Solution};
 use crate::algebra::ExprId;
 use crate::geometry::MANY_COORDINATES;
 use crate::program::weighted_cost;
@@ -126,7 +126,7 @@ struct Search<'a> {
     least: u64,
     symmetry: Symmetry,
     /// The equations without what they do not depend on.
-    shorter: Option<Equations>,
+    shorter: Option<MotionEquations>,
 }
 
 /// The reason why a formulation is not taken of which a point shows that it is wrong: tests fail where it is given.
@@ -135,7 +135,7 @@ pub const REFUTED: &str = "it is refuted";
 /// The result of the walk through all formulations.
 pub(super) struct Found {
     /// The equations for `s = 1..l`, generalised forces included.
-    pub(super) equations: Equations,
+    pub(super) equations: MotionEquations,
     /// The momenta, where they come with the equations.
     pub(super) momenta: Option<Vec<ExprId>>,
     /// The solved accelerations.
@@ -378,7 +378,7 @@ fn projected(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, 
 
 /// The equations solved with the first value of each pair kept whole.
 fn shared(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
-    let Equations { mass, forces } = search.stated.shown();
+    let MotionEquations { mass, forces } = search.stated.shown();
     let Some(solution) = Solution::shared(bench, mass, forces) else {
         return Ok(Outcome::Declined("no two accelerations are coupled by themselves"));
     };

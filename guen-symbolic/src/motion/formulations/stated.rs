@@ -18,7 +18,7 @@ use crate::motion::quasi_velocities::velocity_forms::VelocityPartials;
 use crate::motion::thresholds::{
     ALL_WAYS, COUPLED_COORDINATES, MASS_PRODUCTS, MULTIPLIED_PARAMETERS, MULTIPLIED_VELOCITIES, OTHER_WAYS,
 };
-use crate::motion::{Equations, Frame, FrameNode, KineticTerm, Mechanics};
+use crate::motion::{Frame, FrameNode, KineticTerm, Mechanics, MotionEquations};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -30,28 +30,28 @@ pub(in crate::motion) struct Stated {
     /// (2.7).
     pub(super) definition: Definition,
     /// Multiplied out, the form to show first; none where that is too much.
-    pub(super) multiplied: Vec<Equations>,
+    pub(super) multiplied: Vec<MotionEquations>,
     /// The projection that they were multiplied out from.
     pub(super) projected: Option<Projected>,
     /// The equations of bodies, where no others are multiplied out.
-    pub(super) of_bodies: Option<Equations>,
+    pub(super) of_bodies: Option<MotionEquations>,
     /// The rates by bodies, once they were looked for; proved where their equations are stated.
     pub(super) bodies: Option<Option<multibody::Found>>,
     /// The equations with the constraints as parameters that stay zero, as of [`multibody::freed`], where they were looked for and proved.
-    pub(in crate::motion) freed: Option<Equations>,
+    pub(in crate::motion) freed: Option<MotionEquations>,
     /// The system in the rates of its base angles, where the equations come from there.
     pub(super) in_base: Option<InBaseParameters>,
     /// The equations in the axes of the bodies, where constraints on positions ask for them.
     pub(super) in_body_axes: Option<InBodyAxes>,
     /// The rows `s = l+1..n`, of the reactions, with the generalised forces.
-    pub(in crate::motion) constrained: Equations,
+    pub(in crate::motion) constrained: MotionEquations,
     /// The rates of a large system, whose equations are not written out.
     pub(super) alone: Option<Alone>,
 }
 
 impl Stated {
     /// The equations to show, for `s = 1..l`.
-    pub(super) fn shown(&self) -> &Equations {
+    pub(super) fn shown(&self) -> &MotionEquations {
         match &self.of_bodies {
             Some(equations) => equations,
             None => &self.multiplied[0],
@@ -88,7 +88,7 @@ impl Stated {
                     freed: None,
                     in_base: None,
                     in_body_axes: None,
-                    constrained: Equations { mass: Vec::new(), forces: Vec::new() },
+                    constrained: MotionEquations { mass: Vec::new(), forces: Vec::new() },
                     alone: Some(alone),
                 });
             }
@@ -238,10 +238,10 @@ fn constrained(
     frame: &mut Frame,
     partials: &mut VelocityPartials,
     terms: &[KineticTerm],
-) -> Equations {
+) -> MotionEquations {
     let (n, l) = (system.forms.len(), system.forms.degrees);
     if l == n {
-        return Equations { mass: Vec::new(), forces: Vec::new() };
+        return MotionEquations { mass: Vec::new(), forces: Vec::new() };
     }
     projection::equations(bench, system, frame, partials, terms, l..n).equations
 }

@@ -8,7 +8,7 @@
 mod place;
 mod print;
 
-pub use place::{Component, FormShape, Motion, Place, Velocity};
+pub use place::{FormShape, Motion, Place, Velocity, VelocityComponent};
 
 use crate::algebra::{ExprId, Graph, Substitution};
 

@@ -32,7 +32,7 @@ pub struct Velocity {
 
 /// A component of a velocity.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Component {
+pub struct VelocityComponent {
     /// The direction, of any length.
     pub direction: Place,
     /// The velocity.
@@ -43,7 +43,7 @@ pub struct Component {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct FormShape {
     /// The components.
-    pub components: Vec<Component>,
+    pub components: Vec<VelocityComponent>,
     /// The part that belongs to no velocity in space.
     pub rest: ExprId,
 }
@@ -118,7 +118,7 @@ impl FormShape {
     pub fn plus(&self, graph: &mut Graph, other: &FormShape) -> FormShape {
         let mut components = self.components.clone();
         for component in &other.components {
-            let same = |known: &&mut Component| known.direction == component.direction;
+            let same = |known: &&mut VelocityComponent| known.direction == component.direction;
             match components.iter_mut().find(same) {
                 Some(known) => known.velocity = known.velocity.plus(graph, &component.velocity),
                 None => components.push(component.clone()),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Component, FormShape, FrameId, Motion, Place, SystemGraph, Turn};
+use super::{FormShape, FrameId, Motion, Place, SystemGraph, Turn, VelocityComponent};
 use crate::algebra::{ExprId, Graph};
 
 impl SystemGraph {
@@ -80,7 +80,7 @@ impl SystemGraph {
         terms.join(" + ")
     }
 
-    fn component(&self, graph: &Graph, component: &Component) -> String {
+    fn component(&self, graph: &Graph, component: &VelocityComponent) -> String {
         let part = |(factor, motion): &(ExprId, Motion)| {
             let factor =
                 if *factor == graph.one() { String::new() } else { format!("{} ", graph.text(*factor)) };

@@ -4,7 +4,7 @@
 //! motion: everything may be divided by the constant, whatever is declared of its sign, and `prepare` refuses zero. For a
 //! chain these are the mass of its last particle and the lengths of its links.
 
-use crate::algebra::{Bound, ExprId, FastMap, Node, Role, SymbolId};
+use crate::algebra::{ExprId, FastMap, Node, Role, SignBound, SymbolId};
 use crate::motion::quasi_velocities::velocity_forms::VelocityPartials;
 use crate::motion::thresholds::VALUES_AT_POINTS;
 use crate::motion::{Frame, KineticTerm, Mechanics};
@@ -51,7 +51,7 @@ pub(in crate::motion) fn find(
     let is_open = |symbol: &SymbolId| {
         let info = graph.symbol_info(*symbol);
         info.role == Role::Constant
-            && matches!(info.bound, Bound::Free | Bound::NonNegative | Bound::NonPositive)
+            && matches!(info.bound, SignBound::Free | SignBound::NonNegative | SignBound::NonPositive)
             && !within.contains(symbol)
     };
     let symbols = graph.symbols_in(&all);
@@ -89,7 +89,7 @@ fn has_candidates(bench: &Workbench, system: &Mechanics, terms: &[KineticTerm]) 
     let graph = &bench.graph;
     graph.symbols_in(&all).into_iter().any(|symbol| {
         let info = graph.symbol_info(symbol);
-        let is_open = matches!(info.bound, Bound::Free | Bound::NonNegative | Bound::NonPositive);
+        let is_open = matches!(info.bound, SignBound::Free | SignBound::NonNegative | SignBound::NonPositive);
         info.role == Role::Constant && is_open || graph.is_indispensable(symbol)
     })
 }

@@ -3,13 +3,13 @@
 use crate::algebra::ExprId;
 use crate::geometry::dependence;
 use crate::motion::fault::{DerivationError, affordable};
-use crate::motion::{Equations, Solution};
+use crate::motion::{MotionEquations, Solution};
 use crate::workbench::Workbench;
 
 /// The equations solved, or what of them is without inertia.
 pub(in crate::motion) fn solved(
     bench: &mut Workbench,
-    equations: &Equations,
+    equations: &MotionEquations,
 ) -> Result<Solution, DerivationError> {
     let solution = Solution::new(bench, &equations.mass, &equations.forces);
     affordable(bench)?;

@@ -10,7 +10,7 @@
 //! with `lambda_j = 0` for a parameter, and the second only where no velocity remains at `eta = 0`.
 
 use crate::algebra::ExprId;
-use crate::motion::Equations;
+use crate::motion::MotionEquations;
 use crate::motion::derivation::Derivation;
 use crate::motion::formulations::multibody;
 use crate::motion::quasi_velocities::velocity_forms::VelocityPartials;
@@ -41,7 +41,7 @@ impl Derivation {
                 && times * weighted_cost(&bench.graph, other) < weighted_cost(&bench.graph, own)
                 && agree(bench, own, other)
         };
-        let rows = Equations { mass: freed.mass[..l].to_vec(), forces: freed.forces[..l].to_vec() };
+        let rows = MotionEquations { mass: freed.mass[..l].to_vec(), forces: freed.forces[..l].to_vec() };
         if is_shown && is_proved(bench, &self.equations.entries(), &rows.entries(), 1) {
             self.equations = rows;
         }

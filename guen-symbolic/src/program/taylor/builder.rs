@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::super::{FunctionProgram, Instruction, Operation, Value};
-use super::{NotAnalytic, SeriesProgram, SeriesStep, Source, Start};
+use super::{NotAnalytic, SeriesProgram, SeriesStep, Start, SymbolInStep};
 use crate::algebra::{Function, Multivariate, Rational, SymbolId};
 
 /// The part of a step by which equal steps are found.
@@ -59,7 +59,7 @@ struct Builder {
 
 pub(super) fn build(
     program: &FunctionProgram,
-    source: &dyn Fn(SymbolId) -> Source,
+    source: &dyn Fn(SymbolId) -> SymbolInStep,
 ) -> Result<SeriesProgram, NotAnalytic> {
     let mut builder = Builder {
         steps: Vec::new(),
@@ -75,10 +75,10 @@ pub(super) fn build(
         let at = |v: &Value| moved[v.index()].unwrap_or(Value(0));
         let value = match &instruction.operation {
             Operation::Symbol(symbol) => match source(*symbol) {
-                Source::Still => builder.push(SeriesStep::Still(instruction.operation.clone())),
-                Source::Time => builder.once((Kind::Time, 0, 0), SeriesStep::Time),
-                Source::Input(i) => builder.once((Kind::Input, i as u32, 0), SeriesStep::Input(i)),
-                Source::State(i) => builder.once((Kind::State, i as u32, 0), SeriesStep::Variable(i)),
+                SymbolInStep::Still => builder.push(SeriesStep::Still(instruction.operation.clone())),
+                SymbolInStep::Time => builder.once((Kind::Time, 0, 0), SeriesStep::Time),
+                SymbolInStep::Input(i) => builder.once((Kind::Input, i as u32, 0), SeriesStep::Input(i)),
+                SymbolInStep::State(i) => builder.once((Kind::State, i as u32, 0), SeriesStep::Variable(i)),
             },
             Operation::Number(_) | Operation::Pi | Operation::Prepared(_) => {
                 builder.push(SeriesStep::Still(instruction.operation.clone()))

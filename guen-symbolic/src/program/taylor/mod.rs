@@ -27,7 +27,7 @@ use crate::algebra::{Function, SymbolId};
 
 /// The behaviour of a symbol during a step.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Source {
+pub enum SymbolInStep {
     /// Constant: a physical constant, or an input that is held.
     Still,
     /// An input that has a series of its own, by its place.
@@ -111,7 +111,10 @@ impl SeriesProgram {
     ///
     /// Piecewise functions of something that moves have no series: they would be continued beyond their
     /// kink by the wrong branch, and nothing would tell. Of functions that the program supplies no series is known.
-    pub fn new(program: &FunctionProgram, source: impl Fn(SymbolId) -> Source) -> Result<Self, NotAnalytic> {
+    pub fn new(
+        program: &FunctionProgram,
+        source: impl Fn(SymbolId) -> SymbolInStep,
+    ) -> Result<Self, NotAnalytic> {
         builder::build(program, &source)
     }
 

@@ -3,7 +3,7 @@
 use f256::f256;
 
 use super::Dice;
-use crate::algebra::{Bound, ExprId, Function, Graph, Multivariate, Rational, Role, SymbolId};
+use crate::algebra::{ExprId, Function, Graph, Multivariate, Rational, Role, SignBound, SymbolId};
 use crate::program::OperationCount;
 use crate::program::evaluate::run;
 use crate::program::instruction::{Instruction, Operation, Value};
@@ -141,7 +141,7 @@ fn no_constant_is_divided_by_that_was_not() {
 fn one_branch_is_not_taken_for_all() {
     for is_root in [false, true] {
         let mut code = Writer::new();
-        let e = code.graph.bounded_symbol("p", Role::Coordinate, Bound::Free);
+        let e = code.graph.bounded_symbol("p", Role::Coordinate, SignBound::Free);
         let p = code.graph.as_symbol(e).expect("it was just made");
         let [x, y] = code.symbols();
         let p = code.put(Operation::Symbol(p));

@@ -11,7 +11,7 @@ use crate::diagnostics::{Fault, Faults};
 use crate::model::{ContactEntry, ContactState, Contacts, FormEntry, Model, SceneEntry};
 use crate::syntax::{
     Clause, ClauseWord, Contact, Declaration, Definition, Docs, Equation, Expression, ExpressionKind,
-    HeldContact, InMode, Item, Name, Number, Scene, Section, SlipDirection,
+    HeldContact, Item, Name, Number, Scene, Section, SingleMode, SlipDirection,
 };
 
 /// The declaration in which a scene is one of a smooth system; `None` after a fault.
@@ -93,7 +93,8 @@ pub(super) fn in_mode(
         Some(model.variable_name(place).to_owned())
     };
     let reset = reset.filter_map(|(variable, _)| name(*variable)).collect();
-    let in_mode = InMode { contacts: contacts_held, followers, tracked, reset, words: words(contacts, mode) };
+    let in_mode =
+        SingleMode { contacts: contacts_held, followers, tracked, reset, words: words(contacts, mode) };
     Some(Declaration {
         items,
         origins,

@@ -2,10 +2,10 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use guen_language::derive::{Derived, DerivedLevel, derive};
+use guen_language::derive::{DerivedLevel, DerivedSystem, derive};
 use guen_language::diagnostics::collect;
 use guen_language::model::{FormKind, Model};
-use guen_language::report::{ReportLines, Section};
+use guen_language::report::{ReportLines, SectionLines};
 use guen_language::{emit, model, parse};
 use guen_symbolic::{ExprId, Role};
 
@@ -67,7 +67,7 @@ pub fn checked(text: &str, with_outline: bool) -> Option<Checked> {
     let (declaration, faults) = parse::parse(text.parse().expect("tokens"));
     let declaration = declaration.filter(|_| faults.is_empty())?;
     let (derived, faults) = collect(|faults| derive(model::resolve(&declaration, faults)?, faults));
-    let Derived { mut model, system, scenes, in_modes } = derived.filter(|_| faults.is_empty())?;
+    let DerivedSystem { mut model, system, scenes, in_modes } = derived.filter(|_| faults.is_empty())?;
     let mut all = Checked::default();
     for level in [&system].into_iter().chain(&scenes) {
         let mut own = level_checked(&mut model, level);
@@ -93,7 +93,7 @@ pub fn checked(text: &str, with_outline: bool) -> Option<Checked> {
             let field = item.rsplit(' ').next().and_then(|field| field.strip_suffix("_z"));
             field.is_some_and(|whole| has(whole, "x") != has(whole, "y"))
         };
-        let items = emit::emit(Derived { model, system, scenes, in_modes });
+        let items = emit::emit(DerivedSystem { model, system, scenes, in_modes });
         let missing = crate::outline::missing(&declaration, items).into_iter();
         let missing = missing.filter(|item| is_code || !linearized(item));
         // An outline has no units.
@@ -232,7 +232,7 @@ fn unknown(model: &mut Model<'_>, scope: &mut Scope, name: &str) -> ExprId {
 fn expected(
     model: &mut Model<'_>,
     level: &DerivedLevel,
-    section: &Section,
+    section: &SectionLines,
     scope: &mut Scope,
 ) -> Option<Vec<Line>> {
     let d = &level.derivation;

@@ -22,14 +22,14 @@ use self::spin::{Flows, Spin, column, in_parameters};
 use crate::algebra::{ExprId, Flow, Rational};
 use crate::motion::coordinates::restriction::{self, Restriction};
 use crate::motion::definition::projection::{self, MeasuredForms};
-use crate::motion::{Equations, Frame, KineticTerm, Mechanics, RigidBody, Solution};
+use crate::motion::{Frame, KineticTerm, Mechanics, MotionEquations, RigidBody, Solution};
 use crate::workbench::Workbench;
 use crate::zero::Verdict;
 
 /// The equations in the axes of the bodies, and what the rates of coordinates are there.
 pub(super) struct InBodyAxes {
     /// The equations without the generalised forces.
-    pub(super) equations: Equations,
+    pub(super) equations: MotionEquations,
     velocities: Vec<ExprId>,
 }
 
@@ -44,7 +44,7 @@ impl InBodyAxes {
         is_by_spins: bool,
     ) -> Vec<Vec<ExprId>> {
         let equations = self.equations.driven(bench, generalised_forces);
-        let Equations { mass, forces } = restriction::restricted(bench, system, equations);
+        let MotionEquations { mass, forces } = restriction::restricted(bench, system, equations);
         let mut solutions =
             vec![Solution::new(bench, &mass, &forces).ok(), Solution::shared(bench, &mass, &forces)];
         if !is_by_spins {

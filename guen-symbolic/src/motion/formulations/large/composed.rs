@@ -7,13 +7,13 @@
 
 use crate::algebra::{ExprId, Rational};
 use crate::motion::formulations::constraint_forces::Differences;
-use crate::motion::{Equations, Frame};
+use crate::motion::{Frame, MotionEquations};
 use crate::workbench::Workbench;
 
 /// The equations, without generalised forces, and the momenta.
 pub(super) struct Composed {
     /// `M_st` and `f_s`.
-    pub(super) equations: Equations,
+    pub(super) equations: MotionEquations,
     /// `dT/d eta_s`.
     pub(super) momenta: Vec<ExprId>,
 }
@@ -45,7 +45,7 @@ pub(super) fn equations(
     let forces = rest.iter().zip(&inertial).map(|(force, own)| bench.graph.sub(*force, *own)).collect();
 
     let mass = tree.mass_matrix(bench, etas.len());
-    Some(Composed { equations: Equations { mass, forces }, momenta })
+    Some(Composed { equations: MotionEquations { mass, forces }, momenta })
 }
 
 /// The forms in an order in which each stands behind the one that it is relative to.

@@ -21,7 +21,7 @@ use crate::motion::thresholds::{
     COMPARED_FORMS, COUPLED_COORDINATES, DIAGONAL_PARAMETERS, FORCES_PER_PARAMETER, MOST_FORMS,
     STATED_PARAMETERS, WRITTEN_OUT_PARAMETERS,
 };
-use crate::motion::{DerivationError, Equations, Frame, KineticTerm, Mechanics, Solution};
+use crate::motion::{DerivationError, Frame, KineticTerm, Mechanics, MotionEquations, Solution};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -37,7 +37,7 @@ pub(super) struct Alone {
     /// The accelerations among them.
     pub(super) solution: Solution,
     /// The equations with the generalised forces, and the momenta; none of those that are not written out.
-    pub(super) equations: Equations,
+    pub(super) equations: MotionEquations,
     pub(super) momenta: Vec<ExprId>,
 }
 
@@ -105,7 +105,7 @@ pub(super) fn rates(
             continue;
         }
         if l > WRITTEN_OUT_PARAMETERS {
-            let equations = Equations { mass: Vec::new(), forces: Vec::new() };
+            let equations = MotionEquations { mass: Vec::new(), forces: Vec::new() };
             return Ok(Some(Alone { name, rates, solution, equations, momenta: Vec::new() }));
         }
         if let Some(Composed { equations, momenta }) = composed

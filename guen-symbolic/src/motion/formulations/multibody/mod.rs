@@ -30,7 +30,7 @@ use self::velocities::variables::Variables;
 use crate::algebra::{ExprId, FastMap};
 use crate::motion::graph::Turn;
 use crate::motion::quasi_velocities::velocity_forms::VelocityPartials;
-use crate::motion::{Equations, Frame, Mechanics};
+use crate::motion::{Frame, Mechanics, MotionEquations};
 use crate::numbering::{Num, Numbering};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
@@ -46,7 +46,7 @@ pub(super) struct Found {
     /// The pivots of the elimination.
     pub(super) pivots: Vec<ExprId>,
     /// The equations that were solved, generalised forces included; only where they were asked for.
-    pub(super) equations: Option<Equations>,
+    pub(super) equations: Option<MotionEquations>,
 }
 
 /// The rates of the state of a system of bodies; none where its energies or forms are beyond what is understood here. `is_alone` says
@@ -131,7 +131,7 @@ pub(in crate::motion) fn freed(
     frame: &Frame,
     partials: &mut VelocityPartials,
     generalised_forces: &[ExprId],
-) -> Option<Equations> {
+) -> Option<MotionEquations> {
     if system.structure.bodies.is_empty() || !is_understood(bench, system) {
         return None;
     }
@@ -158,7 +158,7 @@ pub(in crate::motion) fn freed(
         let entries: Vec<Num> = rows.flatten().chain(forces).collect();
         let mut entries = own.export(&mut bench.graph, &entries);
         let forces = entries.split_off(n * l);
-        Some(Equations { mass: (0..n).map(|j| entries[j * l..][..l].to_vec()).collect(), forces })
+        Some(MotionEquations { mass: (0..n).map(|j| entries[j * l..][..l].to_vec()).collect(), forces })
     };
     if let Some(found) = (0..POINTS).find_map(|point| attempt(&free, point)) {
         return Some(found);
@@ -261,7 +261,7 @@ fn attempt(
         let entries: Vec<Num> = mass.into_iter().flatten().chain(forces).collect();
         let mut entries = table.export(&mut bench.graph, &entries);
         let forces = entries.split_off(l * l);
-        Equations { mass: (0..l).map(|s| entries[s * l..][..l].to_vec()).collect(), forces }
+        MotionEquations { mass: (0..l).map(|s| entries[s * l..][..l].to_vec()).collect(), forces }
     });
     if point.1 && drifts(bench, system, &rates[..n]) {
         rates[..n].copy_from_slice(&frame.velocities);

@@ -12,7 +12,7 @@ use crate::motion::definition::proof::Definition;
 use crate::motion::formulations::constraint_forces::{self, ByConstraintForces};
 use crate::motion::formulations::large::{self, Alone};
 use crate::motion::thresholds::{ALL_FORMS, COUPLED_COORDINATES};
-use crate::motion::{DerivationError, Equations, Frame, Mechanics, Solution};
+use crate::motion::{DerivationError, Frame, Mechanics, MotionEquations, Solution};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -132,9 +132,9 @@ impl Change {
     fn equations(
         &self,
         bench: &mut Workbench,
-        own: &Equations,
+        own: &MotionEquations,
         systems: (&Mechanics, &Mechanics),
-    ) -> Equations {
+    ) -> MotionEquations {
         let partial = PartialSums::new(&transposed(&self.to));
         let right: Vec<Vec<ExprId>> = own.mass.iter().map(|row| partial.kept(bench, row)).collect();
         let turned: Vec<Vec<ExprId>> =
@@ -142,7 +142,7 @@ impl Change {
         let forces = partial.kept(bench, &own.forces);
         let mut out = self.out(bench, systems);
         let mut out = |e: &ExprId| out.of(&mut bench.graph, *e);
-        Equations {
+        MotionEquations {
             mass: transposed(&turned).iter().map(|row| row.iter().map(&mut out).collect()).collect(),
             forces: forces.iter().map(&mut out).collect(),
         }
@@ -240,7 +240,11 @@ impl InBaseParameters {
     }
 
     /// The equations in the parameters as declared, without the generalised forces.
-    pub(in crate::motion) fn equations(&self, bench: &mut Workbench, declared: &Mechanics) -> Equations {
+    pub(in crate::motion) fn equations(
+        &self,
+        bench: &mut Workbench,
+        declared: &Mechanics,
+    ) -> MotionEquations {
         let Restated { system, projected, .. } = &self.restated;
         self.change.equations(bench, &projected.equations, (declared, system))
     }

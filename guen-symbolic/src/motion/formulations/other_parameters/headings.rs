@@ -5,7 +5,7 @@ use crate::algebra::ExprId;
 use crate::geometry::Operators;
 use crate::motion::coordinates::symmetry::Symmetry;
 use crate::motion::thresholds::ALL_FORMS;
-use crate::motion::{Equations, Frame, Mechanics};
+use crate::motion::{Frame, Mechanics, MotionEquations};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -16,7 +16,7 @@ pub(in crate::motion) struct WithoutHeadings {
     /// The directions along which the equations do not change.
     pub(in crate::motion) symmetry: Symmetry,
     /// The equations without that, generalised forces not included.
-    pub(in crate::motion) equations: Option<Equations>,
+    pub(in crate::motion) equations: Option<MotionEquations>,
 }
 
 /// Looks for coordinates that the equations do not depend on; `None` where there are none.
@@ -24,7 +24,7 @@ pub(in crate::motion) fn without(
     bench: &mut Workbench,
     system: &Mechanics,
     frame: &Frame,
-    (shown, raw): (&Equations, &Equations),
+    (shown, raw): (&MotionEquations, &MotionEquations),
     generalised_forces: &[ExprId],
 ) -> Option<WithoutHeadings> {
     let (mut symmetry, reduced) = symmetry(bench, system, shown, raw);
@@ -55,8 +55,8 @@ pub(in crate::motion) fn without(
 fn symmetry(
     bench: &mut Workbench,
     system: &Mechanics,
-    shown: &Equations,
-    raw: &Equations,
+    shown: &MotionEquations,
+    raw: &MotionEquations,
 ) -> (Symmetry, Vec<ExprId>) {
     let l = system.forms.degrees;
     let written: Vec<ExprId> = shown.mass.iter().flatten().chain(&shown.forces).copied().collect();

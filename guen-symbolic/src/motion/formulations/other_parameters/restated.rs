@@ -8,7 +8,7 @@ use crate::motion::definition::{equations, poincare};
 use crate::motion::quasi_velocities::forces;
 use crate::motion::quasi_velocities::velocity_forms::VelocityPartials;
 use crate::motion::thresholds::ALL_FORMS;
-use crate::motion::{Equations, Frame, KineticTerm, Mechanics, Solution, decompose};
+use crate::motion::{Frame, KineticTerm, Mechanics, MotionEquations, Solution, decompose};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -68,9 +68,9 @@ impl Restated {
 pub(super) fn forms(
     bench: &mut Workbench,
     system: &Mechanics,
-    definition: &Equations,
-    reduced: &Equations,
-) -> Vec<Equations> {
+    definition: &MotionEquations,
+    reduced: &MotionEquations,
+) -> Vec<MotionEquations> {
     let mut found = equations::forms(bench, system, definition, reduced);
     let entries = reduced.entries();
     if weighted_cost(&bench.graph, &entries) > ALL_FORMS {
@@ -80,14 +80,14 @@ pub(super) fn forms(
     if opened == entries {
         return found;
     }
-    let Equations { mut mass, forces } = unflattened(opened, system.forms.degrees);
+    let MotionEquations { mut mass, forces } = unflattened(opened, system.forms.degrees);
     let Some(forces) = equations::normal_forces(bench, system, &forces) else { return found };
     for (entry, known) in mass.iter_mut().flatten().zip(found[0].mass.iter().flatten()) {
         let tidy = bench.tidy(*entry);
         let cost = |e: ExprId| weighted_cost(&bench.graph, &[e]);
         *entry = if cost(tidy) < cost(*known) { tidy } else { *known };
     }
-    let open = Equations { mass, forces };
+    let open = MotionEquations { mass, forces };
     if weighted_cost(&bench.graph, &open.entries()) < weighted_cost(&bench.graph, &found[0].entries()) {
         found = vec![open];
     }
@@ -95,15 +95,15 @@ pub(super) fn forms(
 }
 
 /// A list of `l^2` entries of the mass matrix and `l` forces.
-pub(super) fn unflattened(mut list: Vec<ExprId>, l: usize) -> Equations {
+pub(super) fn unflattened(mut list: Vec<ExprId>, l: usize) -> MotionEquations {
     let forces = list.split_off(l * l);
-    Equations { mass: list.chunks(l).map(<[ExprId]>::to_vec).collect(), forces }
+    MotionEquations { mass: list.chunks(l).map(<[ExprId]>::to_vec).collect(), forces }
 }
 
 /// The rates of the state by each of some equations.
 pub(super) fn solutions(
     bench: &mut Workbench,
-    candidates: Vec<Equations>,
+    candidates: Vec<MotionEquations>,
     forces: &[ExprId],
     velocities: &[ExprId],
 ) -> Vec<Vec<ExprId>> {
@@ -120,6 +120,6 @@ pub(super) fn solutions(
 }
 
 /// The first `l` rows of the mass matrix, then as many forces.
-pub(super) fn flattened(equations: &Equations, l: usize) -> Vec<ExprId> {
+pub(super) fn flattened(equations: &MotionEquations, l: usize) -> Vec<ExprId> {
     equations.mass[..l].iter().flatten().chain(&equations.forces[..l]).copied().collect()
 }

@@ -25,7 +25,7 @@ use crate::algebra::{ExprId, FastMap, Flow, Graph, Node};
 use crate::motion::coordinates::relative_angles::RelativeAngles;
 use crate::motion::definition::projection::{self, Measured, MeasuredForms};
 use crate::motion::thresholds::{CLOSE_PROMISE, VELOCITY_WEIGHT};
-use crate::motion::{Equations, Frame, KineticTerm, Mechanics, Solution};
+use crate::motion::{Frame, KineticTerm, Mechanics, MotionEquations, Solution};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -67,7 +67,7 @@ fn found(
     let least = found.iter().map(|(cost, _)| *cost).min()?;
     found.retain(|(cost, _)| *cost < most && CLOSE_PROMISE.1 * cost <= CLOSE_PROMISE.0 * least);
     let mut lists = Vec::new();
-    for (_, Assembled { velocities, equations: Equations { mass, forces } }) in found {
+    for (_, Assembled { velocities, equations: MotionEquations { mass, forces } }) in found {
         let solutions = [Solution::new(bench, &mass, &forces).ok(), Solution::shared(bench, &mass, &forces)];
         let solutions = solutions.into_iter().flatten();
         lists.extend(solutions.map(|solution| [&velocities[..], &solution.accelerations].concat()));
@@ -78,7 +78,7 @@ fn found(
 /// The rates of the coordinates, and the equations with the generalised forces.
 struct Assembled {
     velocities: Vec<ExprId>,
-    equations: Equations,
+    equations: MotionEquations,
 }
 
 /// The forms of a system over velocities, or over symbols for other ones.

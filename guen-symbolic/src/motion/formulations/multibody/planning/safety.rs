@@ -1,6 +1,6 @@
 //! Whether a divisor may vanish: its value where a system rests, and at other states.
 
-use crate::algebra::{Bound, ExprId, Graph, Role, SymbolId, mix};
+use crate::algebra::{ExprId, Graph, Role, SignBound, SymbolId, mix};
 use crate::geometry::Form;
 use crate::numbering::{Num, Numbering};
 use crate::workbench::Workbench;
@@ -33,7 +33,7 @@ fn at_state(graph: &Graph, symbol: SymbolId, state: u64) -> f64 {
     match info.bound {
         _ if moves && state == 0 => 0.0,
         _ if moves => range * (2.0 * part - 1.0),
-        Bound::Negative | Bound::NonPositive => -0.7 - 0.6 * part,
+        SignBound::Negative | SignBound::NonPositive => -0.7 - 0.6 * part,
         _ => 0.7 + 0.6 * part,
     }
 }
