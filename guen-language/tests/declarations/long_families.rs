@@ -72,6 +72,36 @@ fn equations_of_a_chain_grow_with_the_square_of_its_links() {
     assert!(whole.operations < 2.1 * half.operations, "{} {}", half.operations, whole.operations);
 }
 
+/// Sixty rods have fewer parameters than the size from which equations are not written out, and equations that are too much work.
+#[test]
+fn bodies_whose_equations_are_too_much_work_have_rates() {
+    let rods = |n: usize| {
+        size(&format!(
+            "pub system Rods {{
+                count n = {n};
+                constants {{ m > 0, l > 0, J > 0, g = 9.81 }}
+                coordinates {{ q[n] }}
+                let turn[0] = rot_z(q[0]);
+                for i in 1..n {{ let turn[i] = turn[i-1]*rot_z(q[i]); }}
+                let tip[0] = l*turn[0].x;
+                for i in 1..n {{ let tip[i] = tip[i-1] + l*turn[i].x; }}
+                bodies {{
+                    for i in 0..n {{
+                        rod[i] {{
+                            mass: m, center: tip[i] - l/2*turn[i].x, inertia: diag(0, J, J), orientation: turn[i]
+                        }}
+                    }}
+                }}
+                gravity = vec(0, -g, 0);
+            }}"
+        ))
+    };
+    let [written, work, long] = [30, 60, 66].map(rods);
+    assert!(written.has_mass && !work.has_mass && !long.has_mass);
+    assert!(work.report.contains("not written out: of 60 parameters"), "{}", work.report);
+    assert!(work.operations < 130.0 * 60.0, "{}", work.operations);
+}
+
 /// Each joint moves all links beyond it; in the rates of the base angles it moves one.
 #[test]
 fn a_long_chain_in_relative_angles_costs_for_each_link_what_a_short_one_costs() {

@@ -3,7 +3,7 @@
 use super::coordinates::constancy::{is_constant, rests};
 use super::fault::{DerivationError, affordable, few_or_uncoupled};
 use super::formulations::stated::Stated;
-use super::formulations::{self, Formulated, Found};
+use super::formulations::{self, Formulated, Found, large};
 use super::mass_matrix::indispensable;
 use super::quasi_velocities::forces::generalised_forces;
 use super::quasi_velocities::velocity_forms::VelocityPartials;
@@ -75,8 +75,23 @@ pub struct Derivation {
 }
 
 impl Derivation {
-    /// Derives everything.
+    /// Derives everything. Where the equations of many bodies are too much work, their rates alone.
     pub fn new(bench: &mut Workbench, system: Mechanics) -> Result<Self, DerivationError> {
+        let without_equations = large::may_be_alone(&system).then(|| system.clone());
+        match (Self::derived(bench, system, false), without_equations) {
+            (Err(DerivationError::TooLarge), Some(system)) => {
+                bench.begin_another();
+                Self::derived(bench, system, true)
+            }
+            (derivation, _) => derivation,
+        }
+    }
+
+    fn derived(
+        bench: &mut Workbench,
+        system: Mechanics,
+        without_equations: bool,
+    ) -> Result<Self, DerivationError> {
         let (n, l) = (system.forms.len(), system.forms.degrees);
         few_or_uncoupled(&system)?;
         let equations_of_position: Vec<ExprId> = system.holonomic.iter().map(|h| h.equation).collect();
@@ -93,7 +108,8 @@ impl Derivation {
         let indispensable = indispensable::find(bench, &system, &frame, &mut partials, &terms);
         let generalised_forces = generalised_forces(bench, &system, &mut frame, &mut partials);
 
-        let mut stated = Stated::new(bench, &system, &mut frame, &mut partials, &terms, &generalised_forces)?;
+        let given = (&terms[..], &generalised_forces[..]);
+        let mut stated = Stated::new(bench, &system, &mut frame, &mut partials, given, without_equations)?;
         let Found { equations, momenta, mut solution, mut formulations, declined, mut symmetry } =
             formulations::walk(
                 bench,

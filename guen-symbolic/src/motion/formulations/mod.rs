@@ -8,7 +8,7 @@
 
 mod body_axes;
 mod constraint_forces;
-mod large;
+pub(super) mod large;
 pub(super) mod multibody;
 mod other_parameters;
 mod recursive;

@@ -63,20 +63,23 @@ impl Stated {
         system: &Mechanics,
         frame: &mut Frame,
         partials: &mut VelocityPartials,
-        terms: &[KineticTerm],
-        generalised_forces: &[ExprId],
+        (terms, generalised_forces): (&[KineticTerm], &[ExprId]),
+        without_equations: bool,
     ) -> Result<Self, DerivationError> {
         affordable(bench)?;
         // Particles have a way of their own, and are looked at as bodies after it.
         let turns = system.structure.frames().len() > 1;
-        if large::is_large(bench, system, terms) {
+        if without_equations || large::is_large(bench, system, terms) {
             let mut definition = Definition::new(bench, system, generalised_forces);
             let of = (system, &mut *frame);
             // In relative angles a form has all joints before it.
             let others = if turns { None } else { Change::new(bench, system, of.1) };
             let found = match others {
                 Some(change) => change.large_rates(bench, of, (&mut definition, generalised_forces))?,
-                None => large::rates(bench, of, partials, terms, generalised_forces, &mut definition)?,
+                None => {
+                    let given = (terms, generalised_forces);
+                    large::rates(bench, of, partials, given, &mut definition, without_equations)?
+                }
             };
             if let Some(alone) = found {
                 return Ok(Stated {

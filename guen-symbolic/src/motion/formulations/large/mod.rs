@@ -56,15 +56,21 @@ pub(super) fn is_large(bench: &Workbench, system: &Mechanics, terms: &[KineticTe
     is_free && forms.len() > many && (!uncoupled || forms.len() > DIAGONAL_PARAMETERS)
 }
 
+/// Whether rates without equations may be found where equations are too much work: of bodies that turn, without constraints.
+pub(in crate::motion) fn may_be_alone(system: &Mechanics) -> bool {
+    let l = system.forms.degrees;
+    l > STATED_PARAMETERS && system.forms.len() == l && system.structure.frames().len() > 1
+}
+
 /// The proved rates of a large system: by its bodies, where joints turn, else the cheapest of those without a mass matrix. None where
 /// neither is understood.
 pub(super) fn rates(
     bench: &mut Workbench,
     (system, frame): (&Mechanics, &mut Frame),
     partials: &mut VelocityPartials,
-    terms: &[KineticTerm],
-    generalised_forces: &[ExprId],
+    (terms, generalised_forces): (&[KineticTerm], &[ExprId]),
     definition: &mut Definition,
+    without_equations: bool,
 ) -> Result<Option<Alone>, DerivationError> {
     let mut found = Vec::new();
     if system.structure.frames().len() > 1
@@ -76,6 +82,7 @@ pub(super) fn rates(
     }
     let l = system.forms.degrees;
     let etas = &system.etas[..l];
+    let without_equations = without_equations || l > WRITTEN_OUT_PARAMETERS;
     let mut composed = None;
     if found.is_empty()
         && let Some(differences) = differences(bench, (system, frame), partials, terms)
@@ -84,7 +91,7 @@ pub(super) fn rates(
             let rates = [&frame.velocities[..], &solution.accelerations].concat();
             found.push(("multiplied out", rates, solution));
         }
-        if l <= WRITTEN_OUT_PARAMETERS {
+        if !without_equations {
             composed = composed::equations(bench, frame, &differences, etas);
         }
         let solved = composed.as_ref().map(|own| constraint_forces::dense_cost(bench, &own.equations.mass));
@@ -104,7 +111,7 @@ pub(super) fn rates(
         if !definition.is_solved_by(bench, (system, frame), &rates)? {
             continue;
         }
-        if l > WRITTEN_OUT_PARAMETERS {
+        if without_equations {
             let equations = MotionEquations { mass: Vec::new(), forces: Vec::new() };
             return Ok(Some(Alone { name, rates, solution, equations, momenta: Vec::new() }));
         }

@@ -194,7 +194,8 @@ impl Change {
         let Some(mut own) = Prepared::new(bench, system, operators) else { return Ok(None) };
         let mut proof = Definition::new(bench, &own.system, &own.forces);
         let of = (&own.system, &mut own.frame);
-        let found = large::rates(bench, of, &mut own.partials, &own.terms, &own.forces, &mut proof)?;
+        let given = (&own.terms[..], &own.forces[..]);
+        let found = large::rates(bench, of, &mut own.partials, given, &mut proof, false)?;
         let Some(Alone { name, solution, equations, momenta, .. }) = found else { return Ok(None) };
         let systems = (declared, &own.system);
         let accelerations = self.accelerations(bench, systems, solution.accelerations);
