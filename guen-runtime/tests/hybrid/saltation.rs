@@ -180,3 +180,44 @@ fn an_event_is_differentiated_where_it_happens() {
         assert!(((v - w) / (2.0 * step) - by_start.state[1][j]).abs() < 1e-8);
     }
 }
+
+/// An impact at the start: a start that is a little higher meets the floor a little later.
+#[test]
+fn a_motion_that_begins_with_an_impact_has_the_derivatives_of_its_open_side() {
+    for e in [0.5, 0.0] {
+        let ball = BouncingBall { g: 9.81, e };
+        let run = |start: [f64; 2]| ball.simulation(&start).tolerance(TOLERANCE).run(0.0..0.05).unwrap();
+        let at_start = run([0.0, -1.0]).sensitivity(&dop853()).unwrap();
+        let later = run([1e-9, -1.0]).sensitivity(&dop853()).unwrap();
+        for (a, b) in at_start.iter().flatten().zip(later.iter().flatten()) {
+            assert!((a - b).abs() < 1e-6, "{e}: {at_start:?} {later:?}");
+        }
+    }
+    // Later by a unit of height over the speed.
+    let motion = BouncingBall { g: 9.81, e: 0.5 }.simulate(&[0.0, -2.0], 0.0..0.05).unwrap();
+    let by_start = motion.sensitivity_of_transition(0, &dop853()).unwrap();
+    assert_eq!(by_start.time, [0.5, 0.0]);
+    // Two at once are separated by a deviation.
+    let motion = TwoBalls { e: 0.5 }.simulate(&[0.0, 0.0, -3.0, -1.0], 0.0..0.5).unwrap();
+    let error = motion.sensitivity(&dop853()).unwrap_err();
+    let why = NoSaltation::Simultaneous;
+    assert!(matches!(error, SensitivityError::Transition { transition: 0, why: found, .. } if found == why));
+}
+
+/// A start on a zero at which the sign of a deviation decides.
+#[test]
+fn a_start_between_two_cases_has_no_derivative() {
+    // The brake holds a cart that rests, and yields to one that is pushed harder: backwards it would be braked by both.
+    let cart = GrippedCart { limit: 3.0, off: 9.0, push: 1.0 };
+    let from =
+        |t: f64, start: [f64; 2]| cart.simulation(&start).run(t..t + 1.0).unwrap().sensitivity(&dop853());
+    assert_eq!(from(4.0, [0.0, 0.0]).unwrap_err(), SensitivityError::Start { element: "brake" });
+    assert!(from(4.0, [0.0, 0.1]).is_ok() && from(1.0, [0.0, 0.0]).is_ok());
+    // A ball that is lifted from its floor with no speed: down it would be thrown back.
+    let lifted = |speed: f64| {
+        let ball = BouncingBall { g: -9.81, e: 0.5 };
+        ball.simulate(&[0.0, speed], 0.0..0.5).unwrap().sensitivity(&dop853())
+    };
+    assert_eq!(lifted(0.0).unwrap_err(), SensitivityError::Start { element: "floor" });
+    assert!((lifted(1.0).unwrap()[0][1] - 0.5).abs() < 1e-12);
+}

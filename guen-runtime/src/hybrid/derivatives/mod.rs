@@ -4,3 +4,5 @@ mod jump;
 pub(super) mod saltation;
 #[cfg(feature = "alloc")]
 pub(super) mod sensitivity;
+#[cfg(feature = "alloc")]
+mod start;

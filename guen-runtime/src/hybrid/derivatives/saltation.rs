@@ -4,6 +4,7 @@ use crate::hybrid::events::vanishing::vanishes;
 use crate::hybrid::events::watched::{Function, Sides};
 use crate::hybrid::filled::{filled, table};
 use crate::hybrid::impacts::turning::Along;
+use crate::hybrid::interface::mode::{ElementState, Mode};
 use crate::hybrid::interface::system::HybridSystem;
 use crate::hybrid::interface::transition::{Facts, Transition, TransitionKind};
 use crate::hybrid::mode_dynamics::in_mode::{InMode, motion_series};
@@ -86,7 +87,7 @@ impl<M, const N: usize, const W: usize, const C: usize> Transition<M, N, W, C> {
     /// The derivative of the motion through this transition, from the systems in the modes before and after it.
     ///
     /// [`Hybrid::transitions_between`](crate::hybrid::Hybrid::transitions_between) tells of transitions with both; a trajectory has
-    /// them, `HybridTrajectory::saltation`.
+    /// them, `HybridTrajectory::saltation`. Of an impact with which a run begins it is the derivative on the side on which the gap is open.
     ///
     /// # Errors
     ///
@@ -158,8 +159,12 @@ impl<M, const N: usize, const W: usize, const C: usize> Transition<M, N, W, C> {
         }
         let (t, x) = (self.t, &self.state_before);
         let (rates, rates_after) = (before.rates(t, x), after.rates(t, &self.state_after));
-        let directions: [[f64; N]; N] = if facts.begins { unit_matrix() } else { before.allowed(t, x)? };
-        let time = self.shifts(before, &rates, &directions)?;
+        let directions: [[f64; N]; N] = before.allowed(t, x)?;
+        let met = match facts.begins {
+            true => Some(Function::Gap(before.met_at_start(facts, &after.mode())?)),
+            false => None,
+        };
+        let time = self.shifts(before, &rates, &directions, met)?;
         let mut columns = [[0.0; N]; N];
         for (j, column) in columns.iter_mut().enumerate() {
             // Along the surface on which the function vanishes, and from there at the time of the transition again.
@@ -174,12 +179,13 @@ impl<M, const N: usize, const W: usize, const C: usize> Transition<M, N, W, C> {
         if finite { Ok(Saltation { matrix, time, rates_after }) } else { Err(NoSaltation::NotFinite) }
     }
 
-    /// The derivatives of the time of the transition along directions.
+    /// The derivatives of the time of the transition along directions. At the start of a run the function that was met is given.
     fn shifts<H, const S: usize>(
         &self,
         before: &InMode<H, N, W, C, S>,
         rates: &[f64; N],
         directions: &[[f64; N]; N],
+        met: Option<Function>,
     ) -> Result<[f64; N], NoSaltation>
     where
         H: HybridSystem<N, W, C, S>,
@@ -192,7 +198,10 @@ impl<M, const N: usize, const W: usize, const C: usize> Transition<M, N, W, C> {
         let sides = Sides { latches: [1.0; C], signals: [1.0; S], slow: [0.0; C] };
         let mut shifts: Option<[f64; N]> = None;
         let (mut any, mut largest, mut difference) = (false, 0.0_f64, 0.0_f64);
-        for function in Function::all(C, S).filter(|function| self.facts.has(*function, self.signal)) {
+        for function in Function::all(C, S) {
+            if !(met == Some(function) || self.facts.has(function, self.signal)) {
+                continue;
+            }
             any = true;
             if before.is_grazing(function, &sides, t, x) {
                 continue;
@@ -218,7 +227,7 @@ impl<M, const N: usize, const W: usize, const C: usize> Transition<M, N, W, C> {
         }
         match shifts {
             Some(_) if self.facts.inputs => Err(NoSaltation::Simultaneous),
-            // At the start of a run, and where inputs change, the time is given.
+            // Where inputs change the time is given.
             None if !any => Ok([0.0; N]),
             None => Err(NoSaltation::Grazing),
             Some(_) if difference > SAME * largest => Err(NoSaltation::Simultaneous),
@@ -266,6 +275,17 @@ where
         Ok(parts)
     }
 
+    /// The contact whose gap closes in an impact with which a run begins, if nothing else touches, grips or locks: a start with a larger gap
+    /// meets it later. With more than one contact a deviation separates them.
+    fn met_at_start(&self, facts: &Facts<C>, after: &Mode<C>) -> Result<usize, NoSaltation> {
+        let takes_part = facts.takes_part.unwrap_or([false; C]);
+        let mut met = (0..C).filter(|c| takes_part[*c]);
+        let (Some(contact), None) = (met.next(), met.next()) else { return Err(NoSaltation::Simultaneous) };
+        let is_free = |c: usize| matches!(after.0[c], ElementState::Open | ElementState::Free);
+        let alone = (0..C).all(|c| c == contact || is_free(c));
+        if alone { Ok(contact) } else { Err(NoSaltation::Simultaneous) }
+    }
+
     /// Whether a function that vanishes hardly crosses zero.
     fn is_grazing(&self, function: Function, sides: &Sides<C, S>, t: f64, state: &[f64; N]) -> bool {
         /// The square of the part of a function's own size within which it turns back.
@@ -282,6 +302,6 @@ where
 }
 
 /// The unit vectors.
-fn unit_matrix<const N: usize>() -> [[f64; N]; N] {
+pub(super) fn unit_matrix<const N: usize>() -> [[f64; N]; N] {
     table(|i, j| if i == j { 1.0 } else { 0.0 })
 }

@@ -2,6 +2,7 @@
 
 use super::saltation::{NoSaltation, Saltation};
 use crate::hybrid::filled::{filled, table};
+use crate::hybrid::interface::mode::Mode;
 use crate::hybrid::interface::system::HybridSystem;
 use crate::hybrid::interface::transition::TransitionKind;
 use crate::hybrid::mode_dynamics::in_mode::InMode;
@@ -35,6 +36,12 @@ pub enum SensitivityError {
         /// The reason why there is no derivative.
         why: NoSaltation,
     },
+    /// The motion has no derivative by its start: there it is between two cases, as a slip from rest is between its directions, and the sign
+    /// of a deviation decides which.
+    Start {
+        /// The name of the element, switch or reset that is between them.
+        element: &'static str,
+    },
     /// There is no transition of this position that ends a mode.
     NoTransition {
         /// The position asked for.
@@ -56,6 +63,13 @@ impl fmt::Display for SensitivityError {
         match self {
             Self::Transition { transition, t, why } => {
                 write!(f, "the motion has no derivative through transition {transition} at t = {t}: {why}")
+            }
+            Self::Start { element } => {
+                write!(
+                    f,
+                    "the motion has no derivative by its start, where `{element}` is between two cases: the sign of a \
+                     deviation decides what happens"
+                )
             }
             Self::Sampled => {
                 write!(f, "the derivatives of a controller that finds inputs on the way are not known")
@@ -88,6 +102,12 @@ where
         let segments = &self.log.segments;
         let place = segments.partition_point(|segment| segment.transitions <= transition);
         let after = segments.get(place).ok_or(NoSaltation::OtherModes)?;
+        if told.facts.begins {
+            let InMode { system, switches, .. } = after.in_mode.clone();
+            let mode = Mode::free(&H::ELEMENTS);
+            let before = InMode::with_switches(system, mode, switches, told.t, &told.state_before);
+            return told.saltation(&before, &after.in_mode);
+        }
         let before = segments.get(place.saturating_sub(1)).unwrap_or(after);
         told.saltation(&before.in_mode, &after.in_mode)
     }
@@ -95,7 +115,8 @@ where
     /// The derivatives of the state at the end by the state at the start, `[i][j]` that of entry `i` by entry `j`: the product of the
     /// variations within the modes, which a method computes in dual numbers, and of the [saltations](Self::saltation) between them.
     ///
-    /// A start is put onto what its mode demands before it moves, and deviations of it too. The method's tolerances judge the motion.
+    /// A start is put onto what its mode demands before it moves, and deviations of it too. Of a motion that begins on a contact and leaves
+    /// it, at once or by an impact, the derivatives are those by starts on the open side of the gap. The method's tolerances judge the motion.
     ///
     /// ```
     /// # use guen_runtime::hybrid::{Element, FreeMotion, HybridSystem, Mode, Signal};
@@ -135,7 +156,7 @@ where
     ///
     /// # Errors
     ///
-    /// A transition through which the motion has no derivative, or the method's error.
+    /// A transition through which the motion has no derivative, a start between two cases, or the method's error.
     pub fn sensitivity<M>(&self, method: &M) -> Result<[[f64; N]; N], SensitivityError>
     where
         M: Method<Dual<f64, N>, InMode<H, N, W, C, S>, N>,
@@ -211,7 +232,7 @@ where
             }
             if told == segment.transitions {
                 // A mode that begins without a transition: the start, or other inputs.
-                matrix = put_back(segment, &matrix)?;
+                matrix = put_back(segment, &matrix, last.is_none())?;
             }
             last = Some(segment);
         }
@@ -224,17 +245,21 @@ fn product<const N: usize>(a: &[[f64; N]; N], b: &[[f64; N]; N]) -> [[f64; N]; N
     table(|i, j| (0..N).map(|k| a[i][k] * b[k][j]).sum())
 }
 
-/// The deviations that a mode allows where it begins.
+/// The deviations that a mode allows where it begins, `first` where the motion does.
 fn put_back<H, const N: usize, const W: usize, const C: usize, const S: usize>(
     segment: &Segment<H, N, W, C, S>,
     matrix: &[[f64; N]; N],
+    first: bool,
 ) -> Result<[[f64; N]; N], SensitivityError>
 where
-    H: HybridSystem<N, W, C, S>,
+    H: HybridSystem<N, W, C, S> + Clone,
 {
-    let parts = segment.in_mode.allowed(segment.start, &segment.state);
-    let parts =
-        parts.map_err(|_| SensitivityError::Integration { t: segment.start, cause: Cause::NotFinite })?;
+    let Segment { start, state, in_mode, .. } = segment;
+    let parts = in_mode.allowed(*start, state);
+    let parts = parts.map_err(|_| SensitivityError::Integration { t: *start, cause: Cause::NotFinite })?;
+    if first && let Some(element) = in_mode.divides(*start, state, &parts) {
+        return Err(SensitivityError::Start { element });
+    }
     Ok(product(&table(|i, j| parts[j][i]), matrix))
 }
 
