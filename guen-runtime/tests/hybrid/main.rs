@@ -5,6 +5,8 @@ mod friction;
 mod json;
 mod methods;
 #[cfg(feature = "alloc")]
+mod no_number;
+#[cfg(feature = "alloc")]
 mod polygons;
 mod reference;
 #[cfg(feature = "alloc")]

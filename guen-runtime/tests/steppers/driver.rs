@@ -365,3 +365,51 @@ impl guen_runtime::Differentiable<f64, 2> for Counting {
         [dv, -dx]
     }
 }
+
+/// A function that ceases to be a number: its crossings before are told, and the run ends with what has been computed.
+#[test]
+fn an_event_whose_function_is_no_number_ends_the_run_with_its_motion() {
+    let motion = from_fn(|_t: f64, &[x, v]: &[f64; 2]| [v, -x]);
+    let method = Dop853::new(1e-9, 1e-9);
+    let never = |_t: f64, _: &[f64; 2]| f64::NAN;
+    let ends = |t: f64, _: &[f64; 2]| (0.5 - t).sqrt() - 0.1;
+    let place = |_t: f64, x: &[f64; 2]| x[0] - 0.6;
+    let run = |events: [Event<'_, f64, 2>; 2], end: f64| {
+        let mut told = Vec::new();
+        let done = Integration::new(&motion, 0.0, &START)
+            .events(events, &mut |event| {
+                told.push((event.index, event.time));
+                go_on(())
+            })
+            .run(&method, end);
+        (done, told)
+    };
+    // From the start.
+    let (done, _) = run([Event::new(&place), Event::new(&never)], 5.0);
+    let error = done.unwrap_err();
+    assert_eq!((error.cause, error.time, error.state), (Cause::EventFunction { event: 1 }, 0.0, START));
+    assert_eq!(
+        error.to_string(),
+        "integration stopped at t = 0: the function of event 1 is not a number here"
+    );
+    // From a time on: it crosses zero before, and the other one as well.
+    for end in [5.0_f64, -5.0] {
+        let mirrored = |t: f64, x: &[f64; 2]| ends(t * end.signum(), x);
+        let (done, told) = run([Event::new(&mirrored), Event::new(&place)], end);
+        let error = done.unwrap_err();
+        assert_eq!(error.cause, Cause::EventFunction { event: 0 });
+        assert!(error.time.abs() > 0.5 && (error.state[0] - error.time.sin()).abs() < 1e-7, "{error:?}");
+        assert!(told[0].0 == 0 && (told[0].1.abs() - 0.49).abs() < 1e-9, "{told:?}");
+    }
+    // A run that ends before is none of its business, nor is one that it ends itself.
+    let (done, told) = run([Event::new(&ends).terminal(), Event::new(&place)], 5.0);
+    assert!(
+        done.unwrap().outcome == Outcome::Event(0)
+            && told == [(0, told[0].1)]
+            && (told[0].1 - 0.49).abs() < 1e-12
+    );
+    let root = |t: f64, x: &[f64; 2]| x[0] - 0.45 * (1.0 + (0.5 - t).sqrt());
+    let low = |_t: f64, x: &[f64; 2]| x[0] - 0.3;
+    let (done, told) = run([Event::new(&root), Event::new(&low).terminal()], 5.0);
+    assert!(done.unwrap().outcome == Outcome::Event(1) && told.len() == 1, "{told:?}");
+}

@@ -72,7 +72,7 @@ impl Failure {
             | Cause::Carried { .. }
             | Cause::Sliding { .. }
             | Cause::Positions => FailureKind::Guard,
-            Cause::Setting(_) | Cause::Contacts => FailureKind::Setting,
+            Cause::Setting(_) | Cause::Contacts | Cause::EventFunction { .. } => FailureKind::Setting,
             _ => FailureKind::Steps,
         };
         Self { kind, time: Some(time), message: cause.to_string() }

@@ -2,6 +2,7 @@
 
 use super::vanishing::{is_rounding, vanishes};
 use super::watched::{Function, Sides, Watched};
+use crate::hybrid::interface::element::Effect;
 use crate::hybrid::interface::mode::ElementState;
 use crate::hybrid::interface::system::HybridSystem;
 use crate::hybrid::mode_dynamics::in_mode::InMode;
@@ -25,6 +26,8 @@ pub(in crate::hybrid) enum Does {
     Touches,
     /// Is below zero by so much, and has been: a gap whose zero was not seen.
     IsBelow(f64),
+    /// Is NaN, or its condition is.
+    IsNoNumber,
 }
 
 /// The number of times that a part is halved in search of a place at which a function is positive.
@@ -170,7 +173,7 @@ where
     fn within(&mut self, function: Function, before: &Look<C, S>, after: &Look<C, S>) -> Option<Found> {
         let (a, b) = (before.values.get(function)?, after.values.get(function)?);
         if b.value.is_nan() || a.value.is_nan() {
-            return None;
+            return self.without_number(function, before, after);
         }
         if let Function::Signal(s) = function
             && !H::SIGNALS[s].is_switch()
@@ -229,7 +232,44 @@ where
             let bracket = Bracket { before: from.0, after: to.0 };
             t = narrow(bracket, (from.1, to.1), &spacing, &mut |t| self.value(function, t)).after;
         }
-        self.counts(function, t).then_some(Found { function, t, does: Does::Falls })
+        self.counted(function, t, Does::Falls)
+    }
+
+    /// A function of the declaration that is NaN at one of two looks, unless it vanishes before. A branch may be, where it is not taken, and
+    /// what depends on reactions is with them.
+    fn without_number(
+        &mut self,
+        function: Function,
+        before: &Look<C, S>,
+        after: &Look<C, S>,
+    ) -> Option<Found> {
+        let is_declared = match function {
+            Function::Gap(_) => true,
+            Function::Signal(s) => H::SIGNALS[s].effect != Effect::Branch,
+            _ => false,
+        };
+        if !is_declared {
+            return None;
+        }
+        let is_known =
+            |look: &Look<C, S>| look.values.get(function).is_some_and(|value| !value.value.is_nan());
+        if !is_known(before) {
+            return Some(Found { function, t: before.t, does: Does::IsNoNumber });
+        }
+        let (mut from, mut to) = (before.t, after.t);
+        for _ in 0..PART_HALVINGS {
+            let middle = from + 0.5 * (to - from);
+            if self.value(function, middle).is_nan() {
+                to = middle;
+            } else {
+                from = middle;
+            }
+        }
+        // Next to the end of a root its error is without bounds, and its sign not known.
+        let last = self.look(from - libm::exp2(-20.0) * (from - before.t));
+        let found =
+            if last.t > before.t && is_known(&last) { self.within(function, before, &last) } else { None };
+        found.or(Some(Found { function, t: after.t, does: Does::IsNoNumber }))
     }
 
     /// The top of a function before a time at which it falls, and its value there: where its rate vanishes, or where the search began if it
@@ -305,7 +345,7 @@ where
                 && self.side(function, a) > 0
                 && self.side(function, b) > 0 =>
             {
-                self.counts(function, bottom).then_some(Found { function, t: bottom, does: Does::Touches })
+                self.counted(function, bottom, Does::Touches)
             }
             _ => None,
         }
@@ -322,14 +362,19 @@ where
         (gap.value < 0.0 && !vanishes(gap)).then_some(gap.value)
     }
 
-    /// Whether the function's zero counts: a contact closes, and a latch locks, only while its condition is positive.
-    fn counts(&mut self, function: Function, t: f64) -> bool {
-        let Function::Gap(c) = function else { return true };
+    /// The zero of a function, if it counts: a contact closes, and a latch locks, only while its condition is positive.
+    fn counted(&mut self, function: Function, t: f64, does: Does) -> Option<Found> {
+        let found = Found { function, t, does };
+        let Function::Gap(c) = function else { return Some(found) };
         if self.in_mode.mode.0[c].is_closed() {
-            return true;
+            return Some(found);
         }
         let state = (self.at)(t);
-        self.in_mode.system.conditions(t, &state, &self.in_mode.switches).when[c] > 0.0
+        let when = self.in_mode.system.conditions(t, &state, &self.in_mode.switches).when[c];
+        if when.is_nan() {
+            return Some(Found { does: Does::IsNoNumber, ..found });
+        }
+        (when > 0.0).then_some(found)
     }
 }
 

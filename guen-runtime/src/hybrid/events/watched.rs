@@ -73,6 +73,19 @@ impl Function {
         matches!(self, Self::Normal(_) | Self::Cone(..) | Self::Regularity | Self::Shared)
     }
 
+    /// The name in the declaration of what the function belongs to.
+    pub(in crate::hybrid) fn name<H, const N: usize, const W: usize, const C: usize, const S: usize>(
+        self,
+    ) -> &'static str
+    where
+        H: HybridSystem<N, W, C, S>,
+    {
+        match self {
+            Self::Signal(s) => H::SIGNALS[s].name,
+            other => other.element().map_or("", |c| H::ELEMENTS[c].name),
+        }
+    }
+
     /// The element that the function belongs to.
     pub(in crate::hybrid) fn element(self) -> Option<usize> {
         match self {

@@ -401,6 +401,11 @@ where
                 if let (Does::IsBelow(gap), Some(c)) = (found.does, found.function.element()) {
                     return Err(HybridCause::Penetrating { contact: H::ELEMENTS[c].name, gap });
                 }
+                if found.does == Does::IsNoNumber {
+                    self.samples_before(&in_mode, found.t, &at);
+                    (self.place.t, self.place.state) = (found.t, at(found.t));
+                    return Err(HybridCause::NoNumber { function: found.function.name::<H, N, W, C, S>() });
+                }
                 let polished = M::Run::COARSE_POLYNOMIAL;
                 let located = self.located(method, &in_mode, &before, found, at(found.t), polished);
                 let Some((t, state)) = located else {

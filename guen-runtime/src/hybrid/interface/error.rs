@@ -63,6 +63,11 @@ pub enum HybridCause<const C: usize> {
     NoImpact,
     /// Impulses with different results satisfy the law of impact.
     SeveralImpacts,
+    /// A gap, the condition of a contact or latch, or the function of a switch or reset is NaN: its zeros from there on would not be seen.
+    NoNumber {
+        /// The name of the element, switch or reset.
+        function: &'static str,
+    },
     /// A reset breaks a contact that is closed.
     BrokenByReset {
         /// The name of the contact.
@@ -104,6 +109,9 @@ impl<const C: usize> fmt::Display for HybridCause<C> {
             }
             Self::TooManyTransitions { limit } => write!(f, "{limit} transitions were not enough"),
             Self::EnergyGain { gain } => write!(f, "the impact would gain a kinetic energy of {gain:e}"),
+            Self::NoNumber { function } => {
+                write!(f, "the function of `{function}`, or its condition, is not a number here")
+            }
             Self::NoImpact => f.write_str("no impulses satisfy the law of impact"),
             Self::SeveralImpacts => f.write_str("impulses with different results satisfy the law of impact"),
             Self::BrokenByReset { contact } => write!(f, "the reset opens `{contact}`, which is closed"),

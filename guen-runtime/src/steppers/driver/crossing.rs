@@ -82,7 +82,7 @@ impl Tracker {
 
     /// Whether a step that ends with this value has no change of sign between its ends.
     pub(crate) fn stays(self, value: f64) -> bool {
-        self.side == 0 || self.side == sign(value) || value.is_nan()
+        !value.is_nan() && (self.side == 0 || self.side == sign(value))
     }
 
     pub(crate) fn side(self) -> i8 {
@@ -113,9 +113,11 @@ impl Tracker {
             if !earlier(before, after, backwards) {
                 continue;
             }
-            let found = if after == checks.end { end } else { value(after) };
+            let (mut after, mut found) = (after, if after == checks.end { end } else { value(after) });
             if found.is_nan() {
-                continue;
+                // It may cross before it ends.
+                let Some(last) = last_number(before, after, value) else { continue };
+                (after, found) = last;
             }
             let (old, new) = (self.side, sign(found));
             self.side = new;
@@ -139,6 +141,27 @@ impl Tracker {
         }
         None
     }
+}
+
+/// The last time before `after` at which a function is a number, as halves of the time since `before` find it, and its value there.
+fn last_number<R: Real>(mut before: R, mut after: R, value: &mut dyn FnMut(R) -> f64) -> Option<(R, f64)> {
+    /// Enough for the digits of a double.
+    const HALVES: u32 = 64;
+
+    let mut found = None;
+    for _ in 0..HALVES {
+        let middle = before + (after - before) * R::from_ratio(1, 2);
+        if middle == before || middle == after {
+            break;
+        }
+        let here = value(middle);
+        if here.is_nan() {
+            after = middle;
+        } else {
+            (before, found) = (middle, Some((middle, here)));
+        }
+    }
+    found
 }
 
 /// A bracket no longer than the event's resolution. The function has the sign `old` at `a`, and the other at `b`, where it

@@ -59,6 +59,7 @@ impl<R: Real, const N: usize> DriveLoop<'_, '_, R, N> {
         for followed in self.events.iter_mut() {
             followed.begin(start.time, &start.state);
         }
+        self.check_events()?;
         while self.samples.get(self.visited) == Some(&start.time) {
             self.visit(start.time, &start.state);
         }
@@ -98,6 +99,8 @@ impl<R: Real, const N: usize> DriveLoop<'_, '_, R, N> {
                         watch.finish_run(Some(&before), run, end)?;
                         return Ok(outcome);
                     }
+                    *end = *run.checkpoint();
+                    self.check_events()?;
                 }
                 let reached = run.checkpoint();
                 if broken || self.show(reached.time, &reached.state) {
@@ -110,6 +113,12 @@ impl<R: Real, const N: usize> DriveLoop<'_, '_, R, N> {
         watch.finish_run(kept.then_some(&before), run, end)?;
         *end = *run.checkpoint();
         Ok(outcome)
+    }
+
+    /// Refuses to go on from a place at which the function of an event is NaN: its crossings would be passed over.
+    fn check_events(&self) -> Result<(), Cause> {
+        let unknown = self.events.iter().position(|followed| !followed.is_known());
+        unknown.map_or(Ok(()), |event| Err(Cause::EventFunction { event }))
     }
 
     /// Refuses settings that make no sense.

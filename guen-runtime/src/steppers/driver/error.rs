@@ -128,6 +128,11 @@ pub enum Cause {
         /// The index of the switching function; a generated system has the formulas in `SWITCHES`.
         switch: usize,
     },
+    /// The function of an event is NaN, at the time and state beside this cause: crossings from there on would not be seen.
+    EventFunction {
+        /// The position of the event among those that were asked for.
+        event: usize,
+    },
     /// The trajectory of a simulation (`Simulate::simulate`) does not fit into the memory that it may take.
     Memory {
         /// The limit, in bytes.
@@ -280,6 +285,7 @@ impl Cause {
                      What sticks is declared under `contacts`; a law that is smooth, as `tanh(v/small)`, creeps instead",
                 )
             }
+            Self::EventFunction { event } => write!(f, "the function of event {event} is not a number here"),
             Self::Memory { limit } => write!(f, "the trajectory does not fit into {limit} bytes"),
             Self::Setting(Setting::Time) => f.write_str("a time to start from or to go to is not finite"),
             Self::Setting(Setting::Samples) => {

@@ -30,6 +30,8 @@ pub enum Direction {
 ///   directions count the sign does not tell a return from an arrival. There the first crossing within 64 roundings of the time
 ///   at the start is taken for a return and not reported, and what would cross so soon after the end of a run is reported with it.
 /// - The function counts as zero where it is so after rounding to `f64`; times keep the precision of the real.
+/// - A run ends with [`Cause::EventFunction`](crate::Cause::EventFunction) at the end of the first step, or at the start, at which the
+///   function is NaN, unless a terminal event ends it in that step. Crossings before are reported.
 ///
 /// ```
 /// use guen_runtime::steppers::{Direction, Event};

@@ -33,7 +33,13 @@ impl<'a, R: Real, const N: usize> Followed<'a, R, N> {
 
     /// Begins at the start of a run.
     pub(super) fn begin(&mut self, time: R, state: &[R; N]) {
-        self.ahead = Tracker::new(self.event.value(time, state));
+        self.end = self.event.value(time, state);
+        self.ahead = Tracker::new(self.end);
+    }
+
+    /// Whether the function is a number where the last step ended, or where the run begins.
+    pub(super) fn is_known(&self) -> bool {
+        !self.end.is_nan()
     }
 
     /// The function at a time of the last step; NaN where it has no state.
