@@ -2,6 +2,7 @@
 
 use guen::hybrid::TransitionKind;
 use guen::prelude::*;
+use guen::{Cause, InputLaw};
 
 use crate::declared::*;
 
@@ -52,4 +53,58 @@ fn recordings_and_plots_show_transitions() {
     assert!(motion.plot("a bowling ball", &["v"]).is_err());
     let forces = motion.plot_reactions("forces").to_svg().unwrap();
     assert!(forces.contains("lane normal") && forces.contains("lane along"));
+}
+
+mechanical_system! {
+    /// A particle on a line that is pushed against a wall.
+    pub system PushedBead {
+        constants { m > 0 = 1, l = 1/4 }
+        inputs { push }
+        coordinates { x }
+        parameters { v = dot(x); }
+        particles { m at vec(x, 0); }
+        forces { push along v; }
+        contacts { wall: gap = l - x, restitution = 1/2; }
+    }
+}
+
+/// A spring to a point behind the wall, that swings.
+#[derive(Clone, Copy)]
+struct Spring;
+
+impl InputLaw<pushed_bead::Prepared> for Spring {
+    fn at<R: Real>(&self, t: R, state: &pushed_bead::State<R>) -> pushed_bead::Inputs<R> {
+        let [stiffness, damping, target] = [60.0, 1.0, 0.3].map(R::from_f64);
+        pushed_bead::Inputs { push: stiffness * (target * t.cos() - state.x) - damping * state.v }
+    }
+}
+
+/// Motions under a law are looked at as all others.
+#[test]
+fn a_motion_under_a_law_has_tables_plots_and_pages() {
+    let bead = PushedBead::default().prepare().unwrap();
+    let start = pushed_bead::State::default();
+    let motion = bead.simulation(&start).law(Spring).run(0.0..2.0).unwrap();
+    let by_law = bead.with_law(Spring);
+    let same = by_law.simulate(&start, 0.0..2.0).unwrap();
+    assert_eq!(motion.transitions(), same.transitions());
+    assert_eq!(motion.transitions()[0].kind, TransitionKind::Impact);
+    assert_eq!(motion.recording().names(), ["x", "v"]);
+    let plot = motion.plot("a bead", &["x"]).unwrap().to_svg().unwrap();
+    assert!(plot.contains("transition"));
+    assert!(motion.plot_reactions("a bead").to_svg().unwrap().contains("wall"));
+    assert_eq!(motion.reaction_of("wall", 2.0).unwrap(), [0.0; 3]);
+    let folder = std::env::temp_dir().join(format!("guen-by-law-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let (table, page) = (folder.join("bead.csv"), folder.join("bead.html"));
+    motion.save_csv(0.5, &table).unwrap();
+    motion.view(&by_law, "a bead", &page).unwrap();
+    let text = std::fs::read_to_string(&table).unwrap();
+    assert!(text.starts_with("t,x,v,wall,wall\n"), "{text}");
+    assert!(std::fs::read_to_string(&page).unwrap().contains("impact: wall"));
+    std::fs::remove_dir_all(&folder).unwrap();
+    // The energy is that of the bead, and rates without contacts are refused.
+    assert_eq!(by_law.energy(0.0, &pushed_bead::State { x: 0.1, v: 2.0 }.into()), 2.0);
+    let error = Integration::new(&by_law, 0.0, &[0.0, 0.0]).run(&Dop853::new(1e-9, 1e-9), 1.0).unwrap_err();
+    assert_eq!(error.cause, Cause::Contacts);
 }

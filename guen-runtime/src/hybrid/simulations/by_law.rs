@@ -1,7 +1,9 @@
 //! Systems with contacts whose inputs are functions of time and state.
 
 #[cfg(feature = "alloc")]
-use super::simulation::HybridSimulation;
+use super::simulation::{HybridSimulation, HybridSimulationError};
+#[cfg(feature = "alloc")]
+use super::trajectory::HybridTrajectory;
 use crate::hybrid::interface::element::{Element, Signal};
 use crate::hybrid::interface::loads::Loads;
 use crate::hybrid::interface::mode::Mode;
@@ -10,7 +12,15 @@ use crate::numbers::lift::Lift;
 use crate::numbers::real::Real;
 use crate::numbers::running_error::RunningError;
 use crate::system::constraints::positions_error::PositionsError;
+use crate::system::forward::forward;
+use crate::system::guarded::Guarded;
+use crate::system::inputs::actuated::{Actuated, StateOf};
 use crate::system::inputs::input_law::{InputLaw, InputRecords};
+use crate::system::observables::bodies::{Bodies, Body};
+use crate::system::simulate::Simulate;
+use crate::system::{Monitored, System};
+#[cfg(feature = "alloc")]
+use core::ops::Range;
 
 /// A prepared system with contacts and `M` inputs: the programs in which inputs stand, over every real. Generated systems are.
 #[diagnostic::on_unimplemented(
@@ -125,6 +135,34 @@ impl<P, L, const M: usize> ByLaw<P, L, M> {
         self.law.at(t, state)
     }
 
+    /// Simulates the motion from a state over a span of time, through its modes, with DOP853 at a tolerance of 1e-9.
+    ///
+    /// # Errors
+    ///
+    /// The reason why the motion could not go on, with the trajectory until then.
+    // A method of its own, which goes before that of `Simulate`, whose motions know no contacts.
+    #[cfg(feature = "alloc")]
+    #[allow(
+        clippy::type_complexity,
+        clippy::result_large_err,
+        reason = "the types of the simulation with its defaults"
+    )]
+    pub fn simulate<const N: usize, const W: usize, const C: usize, const S: usize>(
+        &self,
+        start: &P::StateOver<f64>,
+        span: Range<f64>,
+    ) -> Result<
+        HybridTrajectory<Self, P::StateOver<f64>, N, W, C, S>,
+        HybridSimulationError<Self, P::StateOver<f64>, N, W, C, S>,
+    >
+    where
+        P: ActuatedModes<N, W, C, S, M>,
+        P::StateOver<f64>: Copy + From<[f64; N]> + Into<[f64; N]>,
+        L: InputLaw<P> + Clone,
+    {
+        HybridSimulation::new(self.clone(), start).run(span)
+    }
+
     /// A simulation through modes from a state, to be described further and run.
     #[cfg(feature = "alloc")]
     pub fn simulation<'a, const N: usize, const W: usize, const C: usize, const S: usize>(
@@ -230,5 +268,85 @@ where
 
     fn allows(&self, mode: &Mode<C>) -> bool {
         self.system.at_zero().allows(mode)
+    }
+}
+
+impl<P, L, const M: usize> ByLaw<P, L, M> {
+    /// The system without contacts, with the inputs held at what the law says at a time and state.
+    #[inline]
+    fn held_at<const N: usize>(&self, t: f64, state: &[f64; N]) -> P::Driven
+    where
+        P: Actuated<f64, N> + InputRecords<StateOver<f64> = StateOf<P, f64, N>, InputsOver<f64> = P::Inputs>,
+        L: InputLaw<P>,
+    {
+        self.system.held(self.law.at(t, &(*state).into()))
+    }
+
+    /// The system without contacts with whatever inputs, for what does not depend on them.
+    #[inline]
+    fn anywhere<const N: usize>(&self) -> P::Driven
+    where
+        P: Actuated<f64, N>,
+    {
+        self.system.held(P::Inputs::default())
+    }
+}
+
+/// The rates without contacts. As those of every system with contacts, they are refused by runs that know no modes.
+impl<P, L, const N: usize, const M: usize> System<f64, N> for ByLaw<P, L, M>
+where
+    P: Actuated<f64, N> + InputRecords<StateOver<f64> = StateOf<P, f64, N>, InputsOver<f64> = P::Inputs>,
+    L: InputLaw<P>,
+{
+    forward!(self -> self.anywhere(), |t, state| self.held_at(t, state); System<f64, N>, restore);
+
+    #[inline]
+    fn guarded(&self) -> impl Guarded<f64, N> {
+        self
+    }
+}
+
+impl<P, L, const N: usize, const M: usize> Guarded<f64, N> for ByLaw<P, L, M>
+where
+    P: Actuated<f64, N> + InputRecords<StateOver<f64> = StateOf<P, f64, N>, InputsOver<f64> = P::Inputs>,
+    L: InputLaw<P>,
+{
+    forward!(self -> self.anywhere().guarded(), |t, state| self.held_at(t, state).guarded(); Guarded<f64, N>);
+}
+
+impl<P, L, const N: usize, const M: usize> Monitored<f64, N> for ByLaw<P, L, M>
+where
+    P: Actuated<f64, N> + InputRecords<StateOver<f64> = StateOf<P, f64, N>, InputsOver<f64> = P::Inputs>,
+    P::Driven: Monitored<f64, N>,
+    L: InputLaw<P>,
+{
+    forward!(self -> self.anywhere(), |t, state| self.held_at(t, state); Monitored<f64, N>);
+}
+
+impl<P, L, const N: usize, const M: usize> Simulate<f64, N> for ByLaw<P, L, M>
+where
+    P: Actuated<f64, N> + InputRecords<StateOver<f64> = StateOf<P, f64, N>, InputsOver<f64> = P::Inputs>,
+    L: InputLaw<P>,
+{
+    type State = StateOf<P, f64, N>;
+    const STATES: &'static [&'static str] = P::Driven::STATES;
+    const UNITS: &'static [&'static str] = P::Driven::UNITS;
+    const DOMAIN: &'static [&'static str] = P::Driven::DOMAIN;
+    const SWITCHES: &'static [&'static str] = P::Driven::SWITCHES;
+    const DECLARATION: u64 = P::Driven::DECLARATION;
+
+    fn onto_constraints(&self, t: f64, state: &mut [f64; N]) -> Result<(), PositionsError> {
+        self.anywhere().onto_constraints(t, state)
+    }
+}
+
+impl<P, L, const N: usize, const M: usize, const B: usize> Bodies<f64, N, B> for ByLaw<P, L, M>
+where
+    P: Actuated<f64, N>,
+    P::Driven: Bodies<f64, N, B>,
+{
+    #[inline]
+    fn bodies(&self, t: f64, state: &[f64; N]) -> [Body<f64>; B] {
+        self.anywhere().bodies(t, state)
     }
 }
