@@ -3,6 +3,8 @@
 mod bodies;
 mod friction;
 mod json;
+#[cfg(feature = "alloc")]
+mod least_flights;
 mod methods;
 #[cfg(feature = "alloc")]
 mod no_number;

@@ -108,7 +108,7 @@ where
             transitions: 0,
             work: Statistics::default(),
             step: None,
-            pair: Pair { modes: [mode; 2], count: 0, since: 0.0 },
+            pair: Pair { modes: [mode; 2], count: 0, since: f64::NEG_INFINITY },
         };
         run.to(method, end, witness)
     }
@@ -208,7 +208,7 @@ where
     /// Goes over to the next mode, and tells of it. Says whether the receiver ends the run.
     fn turn(&mut self, fired: &Fired<C, S>, inputs: bool, end: f64) -> Result<bool, HybridError<N, C>> {
         let begins = self.place.begins;
-        let mut resting = self.resting;
+        let mut resting = self.resting.within(self.step.unwrap_or(0.0));
         let turned = self.place.turn(fired, inputs, &mut resting).map_err(|cause| self.failed(cause))?;
         let (next, mut transition) = turned;
         transition.facts.inputs = inputs;
@@ -339,6 +339,8 @@ where
     {
         /// The part of a step after which a place is looked for that was found twice and was none.
         const PART: f64 = 1.0 / 256.0;
+        /// The part of a step that a flight takes at least, which ends where its polynomial says.
+        const SHORTEST_FLIGHT: f64 = 1e-13;
 
         let state = self.place.state;
         self.slow_down(&state);
@@ -408,6 +410,10 @@ where
                 }
                 let polished = M::Run::COARSE_POLYNOMIAL;
                 let located = self.located(method, &in_mode, &before, found, at(found.t), polished);
+                // The end of a flight that is shorter than the polynomial tells.
+                let is_flight = first && matches!(found.function, Function::Gap(_)) && from == before.time;
+                let is_short = found.t - before.time <= SHORTEST_FLIGHT * (after.time - before.time);
+                let located = located.or((is_flight && is_short).then_some((before.time, before.state)));
                 let Some((t, state)) = located else {
                     // Where the same place is found again, the search goes on behind it.
                     let behind = from + PART * (after.time - before.time);
@@ -427,7 +433,11 @@ where
                 self.step = Some(after.time - before.time);
                 (self.place.t, self.place.state) = (t, state);
                 let bracket = (t - found.t).abs() + 4.0 * f64::EPSILON * t.abs();
-                return Ok(Part::Fired(self.fired(found, bracket)));
+                let mut fired = self.fired(found, bracket);
+                if first && t == before.time {
+                    fired.add_at_beginning(found.function);
+                }
+                return Ok(Part::Fired(fired));
             }
             first = false;
             watch.step(&in_mode, &run, &before).map_err(|failed| self.back_to(failed))?;

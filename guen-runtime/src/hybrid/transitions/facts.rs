@@ -110,7 +110,9 @@ where
                 true => vanishes(rates[row]),
                 false => is_rounding(rates[row]) || is_momentary(&row),
             };
-            let normal_still = closed || element.normal.is_some_and(still);
+            // A flight that is shorter than a step can tell is none.
+            let stays = |row: usize| fired.grounded[c] && rates[row].value >= 0.0;
+            let normal_still = closed || element.normal.is_some_and(|row| still(row) || stays(row));
             // A slip before a contact closes is known to roundings, too.
             let slip_still = !anew && (state == ElementState::Stick || fired.slip[c])
                 || anew && vanish(element.tangential)

@@ -8,6 +8,8 @@ use crate::hybrid::mode_dynamics::in_mode::InMode;
 #[derive(Clone, Copy, Debug)]
 pub(in crate::hybrid) struct Fired<const C: usize, const S: usize> {
     pub(super) gap: [bool; C],
+    /// The gaps among them that have not been above zero since the mode began, as far as a step can tell: their contacts have not left.
+    pub(super) grounded: [bool; C],
     pub(super) normal: [bool; C],
     pub(super) cone: [[bool; 2]; C],
     pub(super) slip: [bool; C],
@@ -21,6 +23,7 @@ impl<const C: usize, const S: usize> Default for Fired<C, S> {
         let no = [false; C];
         Self {
             gap: no,
+            grounded: no,
             normal: no,
             cone: [[false; 2]; C],
             slip: no,
@@ -41,6 +44,13 @@ impl<const C: usize, const S: usize> Fired<C, S> {
             Function::Signal(s) => self.signals[s] = true,
             Function::Regularity => self.regularity = true,
             Function::Shared => self.shared = true,
+        }
+    }
+
+    /// Adds a function that has reached zero where the mode begins.
+    pub(in crate::hybrid) fn add_at_beginning(&mut self, function: Function) {
+        if let Function::Gap(c) = function {
+            self.grounded[c] = true;
         }
     }
 

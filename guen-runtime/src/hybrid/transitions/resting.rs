@@ -13,11 +13,16 @@ use crate::hybrid::interface::transition::TransitionKind;
 use crate::hybrid::mode_dynamics::in_mode::{InMode, moved};
 use crate::numbers::running_error::RunningError;
 
+/// The difference of ratios that agree, relative to them, and to what they are below one.
+const AGREEMENT: f64 = 1e-2;
+
 /// The impacts of late, as far as the end of a sequence is judged by them.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::hybrid) struct Resting<const C: usize> {
     /// The error of the time at which a sequence ends that is allowed.
     accuracy: f64,
+    /// The length of the step in which the last impact was found.
+    step: f64,
     speeds: [f64; 4],
     count: u32,
     last: f64,
@@ -26,15 +31,18 @@ pub(in crate::hybrid) struct Resting<const C: usize> {
 
 impl<const C: usize> Resting<C> {
     pub(in crate::hybrid) fn new(accuracy: f64) -> Self {
-        Self { accuracy, speeds: [0.0; 4], count: 0, last: f64::NEG_INFINITY, took_part: [false; C] }
+        let (speeds, last) = ([0.0; 4], f64::NEG_INFINITY);
+        Self { accuracy, step: 0.0, speeds, count: 0, last, took_part: [false; C] }
+    }
+
+    /// With the length of the step in which something was found.
+    pub(in crate::hybrid) fn within(self, step: f64) -> Self {
+        Self { step, ..self }
     }
 
     /// Records an impact with the largest speed of closing. Returns the ratio of the last two speeds, if the last three ratios agree and
     /// are below one.
     pub(super) fn record(&mut self, t: f64, speed: f64, meets: &[bool; C]) -> Option<f64> {
-        /// The difference of ratios that agree, relative to them, and to what they are below one.
-        const AGREEMENT: f64 = 1e-2;
-
         self.took_part = filled(|c| self.took_part[c] || meets[c]);
         self.last = t;
         self.speeds.rotate_right(1);
@@ -103,6 +111,9 @@ where
         meets: [bool; C],
         known: &[Known; C],
     ) -> Result<Option<TransitionKind>, HybridCause<C>> {
+        /// Roundings by which the end of a flight may be off.
+        const INSTANTS: f64 = 4.0;
+
         let rate = |c: usize, rates: &[f64; W]| H::ELEMENTS[c].normal.map_or(0.0, |row| rates[row]);
         let speed = (0..C).filter(|c| meets[*c]).fold(0.0, |most: f64, c| most.max(-rate(c, &impact.before)));
         let ratio = resting.record(self.t, speed, &meets);
@@ -149,8 +160,14 @@ where
             }
             flight_time = flight_time.max(2.0 * away / back);
             // Lower than the digits of the gap tell, whatever the ratio: such a flight has no end that could be located.
-            let unresolved = away * away <= 2.0 * back * resolution[c];
-            let slow = ratio.is_some() && away <= resting.slowest(back, aside);
+            // So is one of which an impact takes less than the digits of the time, or of a step's polynomial, tell.
+            let taken = 2.0 * away / back * (1.0 - impact.restitutions[c]);
+            let instant = INSTANTS * f64::EPSILON * self.t.abs().max(resting.step);
+            let is_taken = |part: f64| taken > 0.0 && part * taken <= instant;
+            let unresolved = away * away <= 2.0 * back * resolution[c] || is_taken(1.0);
+            // Ratios agree only as far as the ends of flights are known.
+            let known = ratio.is_some() || is_taken(AGREEMENT);
+            let slow = known && away <= resting.slowest(back, aside);
             if !(unresolved || slow) {
                 return Ok(None);
             }

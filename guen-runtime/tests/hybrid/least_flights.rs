@@ -1,0 +1,61 @@
+//! Starts on a floor whose speeds or heights are next to nothing: such a body rests, after the few impacts that numbers can tell.
+
+use guen_runtime::hybrid::{ElementState, HybridSystem, TransitionKind};
+
+use crate::systems::BouncingBall;
+
+#[test]
+fn a_body_that_hardly_leaves_its_floor_rests_on_it() {
+    let starts = [
+        [0.0, 1e-18],
+        [0.0, -1e-18],
+        [0.0, 6e-19],
+        [0.0, 1e-20],
+        [0.0, 1e-100],
+        [0.0, 1e-160],
+        [0.0, -1e-160],
+        [0.0, 5e-324],
+        [1e-300, 0.0],
+        [1e-300, 1e-18],
+        [1e-300, -1e-300],
+        [5e-324, 0.0],
+    ];
+    let powers =
+        (12..30).step_by(2).flat_map(|k| [1.0, 2.7, 6.3].map(|digits| [0.0, digits * 10.0_f64.powi(-k)]));
+    let starts: Vec<[f64; 2]> = starts.into_iter().chain(powers).collect();
+    for e in [0.0, 0.5, 0.8, 0.99] {
+        for g in [9.81, 1e-3, 1e6] {
+            let ball = BouncingBall { g, e };
+            let times = [0.0, 1e3, -1.0, 1e-3, 1.0, 1e9];
+            for (start, t) in starts.iter().flat_map(|start| times.map(|t| (start, t))) {
+                let motion = ball.simulate(start, t..t + 1.0);
+                let motion =
+                    motion.unwrap_or_else(|error| panic!("{start:?} at {t}, {e}, {g}: {}", error.error));
+                let [z, v] = motion.end();
+                assert!(z.abs() < 1e-12 && v.abs() < 1e-12, "{start:?} at {t}, {e}, {g}: {z} {v}");
+                assert_eq!(motion.mode_at(t + 1.0).0, [ElementState::Closed], "{start:?} at {t}, {e}, {g}");
+            }
+        }
+    }
+}
+
+/// Many impacts are none too many before the time zero.
+#[test]
+fn a_body_bounces_at_times_below_zero() {
+    let ball = BouncingBall { g: 9.81, e: 0.999 };
+    for t in [-100.0, 0.0, 100.0] {
+        let motion = ball.simulate(&[1.0, 0.0], t..t + 60.0).unwrap();
+        let count = motion.transitions().len();
+        assert!((65..=70).contains(&count), "{t}: {count}");
+    }
+}
+
+/// Nothing is taken from an elastic body.
+#[test]
+fn an_elastic_body_does_not_rest() {
+    for t in [0.0, 1e6] {
+        let motion = BouncingBall { g: 9.81, e: 1.0 }.simulate(&[1e-6, 0.0], t..t + 0.02).unwrap();
+        assert!(motion.transitions().iter().all(|at| at.kind == TransitionKind::Impact), "{t}");
+        assert!(motion.transitions().len() > 20);
+    }
+}
