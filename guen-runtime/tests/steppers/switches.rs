@@ -224,3 +224,62 @@ fn two_changes_within_one_step_are_found() {
     let done = Integration::new(&Blip(-1e-9), 0.0, &[0.0]).run(&Dop853::new(1e-12, 1e-12), 1.7).unwrap();
     assert_eq!((done.statistics.switches, done.state[0]), (0, 0.0));
 }
+
+/// A force that pulses while the body coasts: on where `cos(w t)` is above 0.95, a tenth of each period.
+#[derive(Clone, Copy)]
+struct Pulses(f64);
+
+impl System<f64, 2> for Pulses {
+    fn rhs(&self, t: f64, &[_, v]: &[f64; 2]) -> [f64; 2] {
+        [v, if (self.0 * t).cos() >= 0.95 { 1.0 } else { 0.0 }]
+    }
+
+    fn switches(&self, t: f64, _: &[f64; 2], values: &mut [f64]) -> usize {
+        values[0] = (self.0 * t).cos() - 0.95;
+        1
+    }
+}
+
+#[test]
+fn swings_within_a_step_are_followed() {
+    let width = 0.95_f64.acos();
+    for w in [1.0, 5.0, 20.0, 100.0, 1000.0] {
+        let pulses = Pulses(w);
+        let period = 2.0 * core::f64::consts::PI / w;
+        let (periods, exact) = (9.7, 19.0 * width / w);
+        for start in [0.0, 100.0 * period] {
+            macro_rules! with {
+                ($method:expr, $accuracy:expr) => {{
+                    let run = Integration::new(&pulses, start, &[0.0, 0.0]);
+                    let done = run.run(&$method, start + periods * period).unwrap();
+                    let off = (done.state[1] - exact).abs() / exact;
+                    let switches = done.statistics.switches;
+                    assert!(
+                        off < $accuracy && switches == 19,
+                        "{w} from {start}: off by {off:e}, {switches}"
+                    );
+                }};
+            }
+            with!(Dop853::new(1e-9, 1e-9), 1e-8);
+            with!(Tsit5::new(1e-9, 1e-9), 1e-8);
+            with!(Tsit5::new(1e-6, 1e-6), 1e-5);
+            with!(Dop853::new(1e-4, 1e-4), 1e-3);
+        }
+    }
+}
+
+/// Steps that were made again to end at a switch are trials, and no steps of the motion.
+#[test]
+fn steps_made_again_at_switches_are_rejected_ones() {
+    for (start, end) in [(0.0, 10.0), (10.0, 0.0)] {
+        let mut shown = 0;
+        let mut observe = |_t: f64, _: &[f64; 2]| {
+            shown += 1;
+            core::ops::ControlFlow::Continue(())
+        };
+        let run = Integration::new(&Gap, start, &in_gap(start)).observe(&mut observe);
+        let work = run.run(&Dop853::new(1e-9, 1e-9), end).unwrap().statistics;
+        assert_eq!((work.accepted, work.switches), (shown, 10));
+        assert!(work.rejected > 20, "{work:?}");
+    }
+}

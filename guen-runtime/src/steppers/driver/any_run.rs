@@ -7,7 +7,9 @@ use crate::numbers::real::Real;
 use crate::steppers::driver::dense::Interpolant;
 use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::run::{Checkpoint, Method, StepperRun};
-use crate::steppers::driver::switches::{Step, Switches, Values};
+use crate::steppers::driver::statistics::Statistics;
+use crate::steppers::driver::swings::{Ends, Values};
+use crate::steppers::driver::switches::{Step, Switches};
 use crate::steppers::guard::Watched;
 use crate::system::System;
 
@@ -66,6 +68,8 @@ struct Switched<R, const N: usize> {
     reached: Checkpoint<R, N>,
     /// Whether the next step is the first of a new run.
     restarts: bool,
+    /// The rates at the end of the last step, with its time.
+    rates: Option<(R, [R; N])>,
 }
 
 impl<'a, M, R, S, const N: usize> SystemRun<'a, M, R, S, N>
@@ -80,6 +84,7 @@ where
             switches: Switches::new(here),
             reached: *start,
             restarts: false,
+            rates: None,
         });
         Self { method, run: method.start(start), system, polynomial: None, switched }
     }
@@ -89,7 +94,7 @@ where
         /// Attempts to end a step at a crossing; halves alone take 64.
         const MOST_ATTEMPTS: u32 = 200;
         let Self { method, run, system, switched, .. } = self;
-        let Some(Switched { switches, reached, restarts }) = switched else { return Ok(()) };
+        let Some(Switched { switches, reached, restarts, rates }) = switched else { return Ok(()) };
         let from = *reached;
         let backwards = (target - from.time).to_f64() < 0.0;
         if M::Run::<'a>::JUDGED {
@@ -132,9 +137,16 @@ where
             let values = Values::of(*system, &to);
             // A function that went through zero and back within the step has the same sign at its ends.
             if near.is_none() && !anyway && switches.past().is_none() && !switches.crosses(&values) {
-                near = switches.nearest(*system, (&from, &to), &values);
+                let leaves = match rates {
+                    Some((time, known)) if *time == from.time => *known,
+                    _ => system.rhs(from.time, &from.state),
+                };
+                let arrives = system.rhs(to.time, &to.state);
+                *rates = Some((to.time, arrives));
+                let ends = Ends { from: (&from, leaves), to: (&to, arrives) };
+                near = switches.nearest(*system, &ends, &values);
                 if near.is_some() {
-                    method.restart(run, &Checkpoint { statistics: to.statistics, ..from });
+                    method.restart(run, &again(&from, to.statistics));
                     continue;
                 }
             }
@@ -150,11 +162,18 @@ where
                     *restarts = true;
                     return Ok(());
                 }
-                Step::Over => method.restart(run, &Checkpoint { statistics: to.statistics, ..from }),
+                Step::Over => method.restart(run, &again(&from, to.statistics)),
             }
         }
         Err(Cause::StepUnderflow)
     }
+}
+
+/// The beginning of a step that is made again, with the work done: the steps that were made from it were trials.
+fn again<R: Real, const N: usize>(from: &Checkpoint<R, N>, work: Statistics) -> Checkpoint<R, N> {
+    let accepted = from.statistics.accepted;
+    let rejected = work.rejected + work.accepted.saturating_sub(accepted);
+    Checkpoint { statistics: Statistics { accepted, rejected, ..work }, ..*from }
 }
 
 // A function of its own, so that the room for what is not there is not in the frame of the caller in a build without optimisation.

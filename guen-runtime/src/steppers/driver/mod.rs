@@ -11,5 +11,6 @@ pub(crate) mod integration;
 pub(crate) mod run;
 pub(crate) mod short_ways;
 pub(crate) mod statistics;
+mod swings;
 mod switches;
 mod within_step;

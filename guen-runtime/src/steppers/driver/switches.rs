@@ -7,42 +7,8 @@
 use crate::numbers::real::Real;
 use crate::steppers::driver::crossing::sign;
 use crate::steppers::driver::run::Checkpoint;
+use crate::steppers::driver::swings::{Ends, Look, Swings, Values};
 use crate::system::{MAX_SWITCHES, System};
-
-/// The switching functions at one state.
-#[derive(Clone, Copy)]
-pub(super) struct Values {
-    values: [f64; MAX_SWITCHES],
-    count: usize,
-}
-
-impl Values {
-    /// The functions of a system; those beyond [`MAX_SWITCHES`] are left out.
-    pub(super) fn of<R: Real, S: System<R, N> + ?Sized, const N: usize>(
-        system: &S,
-        place: &Checkpoint<R, N>,
-    ) -> Self {
-        let mut written = [R::zero(); MAX_SWITCHES];
-        let count = system.switches(place.time, &place.state, &mut written).min(MAX_SWITCHES);
-        Self { values: written.map(Real::to_f64), count }
-    }
-
-    /// The function of an index. Without bounds to check the loops of methods cannot panic.
-    fn at(&self, k: usize) -> f64 {
-        self.values.get(k).copied().unwrap_or(0.0)
-    }
-
-    /// The values times a number.
-    fn times(mut self, factor: f64) -> Self {
-        self.values.iter_mut().for_each(|value| *value *= factor);
-        self
-    }
-
-    /// Whether there are any.
-    pub(super) fn is_empty(&self) -> bool {
-        self.count == 0
-    }
-}
 
 /// The time of a state past a crossing, and the functions there.
 #[derive(Clone, Copy)]
@@ -82,7 +48,7 @@ pub(super) enum Step {
 impl<R: Real> Switches<R> {
     /// Begins at the start of a run.
     pub(super) fn new(here: Values) -> Self {
-        let sides = here.values.map(sign);
+        let sides = here.map(sign);
         Self { sides, here, past: None, moved: 0, longest: 0.0, slopes: None }
     }
 
@@ -123,7 +89,7 @@ impl<R: Real> Switches<R> {
     /// The crossed function that is expected to have crossed first.
     fn crossed(&self, values: &Values) -> Option<usize> {
         let mut found: Option<(usize, f64)> = None;
-        for k in 0..values.count {
+        for k in 0..values.count() {
             let (a, b) = (self.here.at(k), values.at(k));
             if self.side(k) * sign(b) < 0 {
                 let part = a.abs() / (a.abs() + b.abs());
@@ -135,40 +101,26 @@ impl<R: Real> Switches<R> {
         found.map(|(k, _)| k)
     }
 
-    /// The time within a step at which a function seems to come near to zero, or to go through it and back: where its cubic through the
-    /// values and rates at both ends is least, and less than half of either. What it evaluates is not counted.
+    /// The time within a step at which a function comes near to zero, or goes through it and back, although it has the same sign at the ends.
+    /// What it evaluates is not counted.
     pub(super) fn nearest<S: System<R, N> + ?Sized, const N: usize>(
         &mut self,
         system: &S,
-        (from, to): (&Checkpoint<R, N>, &Checkpoint<R, N>),
+        ends: &Ends<'_, R, N>,
         values: &Values,
     ) -> Option<R> {
+        let Ends { from: (from, leaves), to: (to, arrives) } = ends;
         let step = to.time - from.time;
         let length = step.to_f64().abs();
         let before = match self.slopes {
             Some((time, rates)) if time == from.time => rates.times(length),
-            _ => slopes(system, from, &self.here, step),
+            _ => slopes(system, (from, leaves), &self.here, step),
         };
-        let after = slopes(system, to, values, step);
+        let after = slopes(system, (to, arrives), values, step);
         self.slopes = Some((to.time, after.times(1.0 / length)));
-        let mut soonest: Option<f64> = None;
-        for k in 0..values.count {
-            let side = f64::from(self.side(k));
-            let [a, b] = [side * self.here.at(k), side * values.at(k)];
-            let [falls, rises] = [before, after].map(|slopes| side * slopes.at(k));
-            if !(a > 0.0 && b > 0.0 && falls < 0.0 && rises > 0.0) {
-                continue;
-            }
-            let part = least_of_cubic([a, b], [falls, rises]);
-            let rest = 1.0 - part;
-            // The cubic in Hermite's form.
-            let least = rest * rest * (a * (1.0 + 2.0 * part) + part * falls)
-                + part * part * (b * (3.0 - 2.0 * part) - rest * rises);
-            if least < 0.5 * a.min(b) && soonest.is_none_or(|first| part < first) {
-                soonest = Some(part);
-            }
-        }
-        let part = soonest?;
+        let begin = Look { part: 0.0, values: self.here, slopes: before };
+        let end = Look { part: 1.0, values: *values, slopes: after };
+        let part = Swings::new(system, ends, &self.sides).first(&begin, &end)?;
         let inside = part * length > resolution(to.time, self.longest)
             && (1.0 - part) * length > resolution(to.time, self.longest);
         inside.then(|| from.time + step * R::from_f64(part))
@@ -242,19 +194,19 @@ impl<R: Real> Switches<R> {
                     let side = sign(values.at(*k));
                     self.side(*k) == 0 && side != 0 && (second.at(*k) - values.at(*k)) * f64::from(side) < 0.0
                 };
-                (0..values.count).find(leads_back)
+                (0..values.count()).find(leads_back)
             }
         }
     }
 
     /// Whether some function vanishes at the start.
     pub(super) fn begins_on_one(&self) -> bool {
-        self.sides.iter().take(self.here.count).any(|side| *side == 0)
+        self.sides.iter().take(self.here.count()).any(|side| *side == 0)
     }
 
     /// Takes the values at the end of a step that counts. Whoever stands on zero stays on the side from which it came.
     fn enter(&mut self, values: Values) {
-        for k in 0..values.count {
+        for k in 0..values.count() {
             let side = sign(values.at(k));
             if let Some(own) = self.sides.get_mut(k).filter(|_| side != 0) {
                 *own = side;
@@ -265,7 +217,7 @@ impl<R: Real> Switches<R> {
 
     /// Counts the functions that a step has carried to their other side, and takes its end as it is.
     pub(super) fn pass(&mut self, values: Values) -> u64 {
-        let crossed = (0..values.count).filter(|k| self.side(*k) * sign(values.at(*k)) < 0).count();
+        let crossed = (0..values.count()).filter(|k| self.side(*k) * sign(values.at(*k)) < 0).count();
         self.enter(values);
         crossed as u64
     }
@@ -274,30 +226,17 @@ impl<R: Real> Switches<R> {
 /// The changes of the functions over a step, at the rates that they have at a place.
 fn slopes<R: Real, S: System<R, N> + ?Sized, const N: usize>(
     system: &S,
-    place: &Checkpoint<R, N>,
+    (place, rates): (&Checkpoint<R, N>, &[R; N]),
     here: &Values,
     step: R,
 ) -> Values {
     /// The part of the step over which they are differenced.
     const PART: f64 = 1.0 / 1_048_576.0;
     let ahead = step * R::from_f64(PART);
-    let rates = system.rhs(place.time, &place.state);
     let state = core::array::from_fn(|i| place.state[i] + ahead * rates[i]);
     let mut slopes = Values::of(system, &Checkpoint { time: place.time + ahead, state, ..*place });
-    for (slope, value) in slopes.values.iter_mut().zip(&here.values) {
-        *slope = (*slope - value) / PART;
-    }
+    slopes.change(here, |slope, value| (slope - value) / PART);
     slopes
-}
-
-/// The part of an interval at which a cubic is least that falls at its beginning and rises at its end.
-fn least_of_cubic([a, b]: [f64; 2], [falls, rises]: [f64; 2]) -> f64 {
-    // The derivative `falls + 2 q s + 3 p s^2` has one zero in between, by the form that loses no digits.
-    let q = 3.0 * (b - a) - 2.0 * falls - rises;
-    let p = falls + rises - 2.0 * (b - a);
-    let root = libm::sqrt((q * q - 3.0 * p * falls).max(0.0));
-    let part = if q >= 0.0 { -falls / (q + root) } else { (root - q) / (3.0 * p) };
-    if part > 0.0 && part < 1.0 { part } else { 0.5 }
 }
 
 /// The duration to which a crossing is located: four roundings of the time, or of the longest step.
