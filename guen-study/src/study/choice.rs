@@ -3,6 +3,7 @@
 
 use std::fmt;
 
+use super::reference::NO_MOTION;
 use super::report::{StudyReport, Unit};
 use super::row::{Nearby, Row};
 
@@ -80,6 +81,8 @@ impl fmt::Display for Caveat {
 pub enum NoChoice {
     /// No setting was measured: the study was cancelled, or no run came to its end.
     NothingMeasured,
+    /// There is no motion to measure: the span is empty, or one of its ends or a number of a start is not finite.
+    NoMotion,
     /// There is no reference, so that no error is known: the report has the reason.
     NoReference,
     /// The reference was not checked by a second method, so that no error is certain.
@@ -110,6 +113,7 @@ impl fmt::Display for NoChoice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NothingMeasured => f.write_str("no setting has a measured error and a measured cost"),
+            Self::NoMotion => write!(f, "there is no motion to measure: {NO_MOTION}"),
             Self::Unchecked => {
                 f.write_str("the reference was not checked by a second method, so no error is certain")
             }
@@ -279,6 +283,10 @@ impl StudyReport {
 
     /// The reason why no row at all is certain.
     fn nothing(&self) -> NoChoice {
+        let why = self.reference.as_ref().and_then(|reference| reference.failure.as_deref());
+        if self.rows.is_empty() && why == Some(NO_MOTION) {
+            return NoChoice::NoMotion;
+        }
         let failed = self.reference.as_ref().is_some_and(|reference| reference.error.is_none());
         let none =
             if failed && !self.rows.is_empty() { NoChoice::NoReference } else { NoChoice::NothingMeasured };

@@ -343,7 +343,8 @@ impl<S, const N: usize> Study<S, N> {
         Self { points: evaluations.max(1), ..self }
     }
 
-    /// Does it. Never fails: what could not be measured is said in the report.
+    /// Does it. Never fails: what could not be measured is said in the report. Nothing is where the span is empty, or one of its ends or a
+    /// number of a start is not finite ([`NoChoice::NoMotion`]).
     #[must_use]
     pub fn run(self) -> Trade<N> {
         run::run(self)

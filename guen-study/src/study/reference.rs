@@ -170,6 +170,10 @@ where
     Named { name, source }
 }
 
+/// The reason why there is no motion to measure.
+pub(super) const NO_MOTION: &str =
+    "the span is empty, or one of its ends or a number of a start is not finite";
+
 /// The reference, as a report tells it.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -188,4 +192,12 @@ pub struct ReferenceReport {
     /// The seconds that both took.
     #[cfg_attr(feature = "serde", serde(with = "crate::exact"))]
     pub seconds: f64,
+}
+
+impl ReferenceReport {
+    /// Of a study without a motion.
+    pub(super) fn without_motion() -> Self {
+        let none = || "none".to_owned();
+        Self { method: none(), check: none(), error: None, failure: Some(NO_MOTION.to_owned()), seconds: 0.0 }
+    }
 }

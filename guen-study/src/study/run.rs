@@ -52,8 +52,18 @@ pub(super) fn run<S, const N: usize>(mut study: Study<S, N>) -> Trade<N> {
     let mut budget = Budget::new(study.budget, study.progress, stop, clock);
     let times = study.times();
 
-    let known = known(&study, &times, &mut budget);
-    let (references, reference) = references(&mut study, &times, &known, &mut budget);
+    let finite =
+        [study.t0, study.t1].iter().chain(study.starts.iter().flatten()).all(|number| number.is_finite());
+    let is_posed = finite && study.t0 != study.t1;
+    if !is_posed {
+        study.variants.clear();
+        study.probes = 0;
+    }
+    let known = if is_posed { known(&study, &times, &mut budget) } else { Known::nothing(study.points) };
+    let (references, reference) = match is_posed {
+        true => references(&mut study, &times, &known, &mut budget),
+        false => (Vec::new(), Some(ReferenceReport::without_motion())),
+    };
     let mut tried = errors(&mut study, &times, &references, reference.as_ref(), &mut budget);
     let probes = nearby(&study, &times, &references, &known, &mut tried, &mut budget);
     costs(&mut study, &times, &mut tried, &mut budget);
@@ -64,7 +74,7 @@ pub(super) fn run<S, const N: usize>(mut study: Study<S, N>) -> Trade<N> {
         span: (study.t0, study.t1),
         starts: study.starts.len(),
         unit: study.unit,
-        scan: reference.is_some().then(|| known.report.clone()),
+        scan: (is_posed && reference.is_some()).then(|| known.report.clone()),
         reference,
         rows: Vec::new(),
         ending: Ending::Complete,

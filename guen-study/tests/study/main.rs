@@ -227,6 +227,31 @@ fn a_reference_that_cannot_be_had_leaves_the_rest() {
     assert!(trade.report.table().contains("failed"));
 }
 
+/// A span of zero, or numbers that are none: nothing is tried, and nothing recommended.
+#[test]
+fn a_study_without_a_motion_says_so() {
+    let nan = f64::NAN;
+    let all = [
+        ([1.0, 0.0], 0.0..0.0, [0.0, 1.0]),
+        ([1.0, 0.0], 0.0..nan, [0.0, 1.0]),
+        ([1.0, 0.0], f64::INFINITY..0.0, [0.0, 1.0]),
+        ([nan, 0.0], 0.0..1.0, [0.0, 1.0]),
+        ([1.0, 0.0], 0.0..1.0, [0.0, nan]),
+    ];
+    for (start, span, other) in all {
+        for energy in [false, true] {
+            let study = Study::new(generic(Planar::Oscillator), start, span.clone()).unwrap().starts([other]);
+            let study = study.count_evaluations().scan(1 << 12);
+            let trade = if energy { study.energy(3).run() } else { study.run() };
+            assert!(trade.report.rows.is_empty());
+            let none = trade.report.fastest_within(1e-3).unwrap_err();
+            assert!(matches!(none, NoChoice::NoMotion), "{none}");
+            assert_eq!(trade.report.most_accurate_within(1e9).unwrap_err(), none);
+            assert!(none.to_string().contains("span") && trade.report.to_string().contains("not finite"));
+        }
+    }
+}
+
 /// A clock that tells each row's own time, with noise that is the same in every study.
 struct Told64 {
     seconds: fn(usize) -> f64,
