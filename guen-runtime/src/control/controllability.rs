@@ -78,6 +78,7 @@ impl Error for Uncontrollable {}
 /// - A nonholonomic system at rest has uncontrollable zero modes although its brackets reach everything: no linear
 ///   feedback stabilises it there (Brockett's condition). What the brackets reach is the last entry of the system's
 ///   `GROWTH`, the dimension of the leaf.
+/// - Of a model with an entry that is infinite or NaN nothing is known: the rank is zero.
 ///
 /// ```
 /// use guen_runtime::{Linearization, control::controllability};
@@ -92,6 +93,9 @@ pub fn controllability<R: Ordered, const N: usize, const M: usize>(
     linear: &Linearization<R, N, M>,
     tolerance: f64,
 ) -> Controllability<R, N> {
+    if !linear.a.iter().flatten().chain(linear.b.iter().flatten()).all(|x| x.is_finite()) {
+        return Controllability { rank: 0, zero_modes: 0, modes: [[R::zero(); N]; N] };
+    }
     let columns_a = transpose(&linear.a);
     let columns_b = transpose(&linear.b);
     let size_a = tolerance * largest(columns_a.iter().map(length));

@@ -56,7 +56,8 @@ impl<R: Ordered, const N: usize, const M: usize> ZeroOrderHold<R, N, M> {
     /// The discrete pair of a linear model with the rates at its point.
     ///
     /// `Psi` is summed as a series over `h 2^-k`, with `k` such that `norm(A) h 2^-k` is at most a half, and doubled by
-    /// `Psi(2h) = Psi + Phi Psi`. About `25 + 2 k` products of matrices, no allocation.
+    /// `Psi(2h) = Psi + Phi Psi`. Beyond ten doublings `E = Phi - 1` is doubled in place of `Phi`, by `E(2h) = 2 E + E^2`, so that slow modes keep
+    /// their digits beside fast ones; what a mode has lost by then is right to roundings of one. About `25 + 2 k` products of matrices, no allocation.
     ///
     /// ```
     /// use guen_runtime::{Linearization, control::ZeroOrderHold};
@@ -75,6 +76,8 @@ impl<R: Ordered, const N: usize, const M: usize> ZeroOrderHold<R, N, M> {
         const MOST_DOUBLINGS: u32 = 60;
         /// Terms of the series: enough for 70 digits.
         const TERMS: i64 = 60;
+        /// Doublings after which `Phi` has lost three digits.
+        const MOST_OF_PHI: u32 = 10;
 
         let size = N as f64 * largest(linear.a.iter().flatten().map(|x| *x * period));
         if !size.is_finite() {
@@ -105,19 +108,23 @@ impl<R: Ordered, const N: usize, const M: usize> ZeroOrderHold<R, N, M> {
             }
         }
         // Phi = 1 + A h (Psi/h)
-        let mut phi = product(&ah, &psi);
-        for (i, row) in phi.iter_mut().enumerate() {
-            row[i] += R::one();
-        }
+        let mut change = product(&ah, &psi);
+        let mut phi = with_one(&change);
         let mut psi = psi.map(|row| row.map(|x| x * h));
+        let is_stiff = doublings > MOST_OF_PHI;
         for _ in 0..doublings {
-            let further = product(&phi, &psi);
-            for i in 0..N {
-                for j in 0..N {
-                    psi[i][j] += further[i][j];
-                }
+            if is_stiff {
+                let further = product(&change, &psi);
+                psi = sum(&sum(&psi, &psi), &further);
+                let square = product(&change, &change);
+                change = sum(&sum(&change, &change), &square);
+            } else {
+                psi = sum(&psi, &product(&phi, &psi));
+                phi = product(&phi, &phi);
             }
-            phi = product(&phi, &phi);
+        }
+        if is_stiff {
+            phi = with_one(&change);
         }
         let gamma = product(&psi, &linear.b);
         let offset: [R; N] = core::array::from_fn(|i| crate::linear_algebra::dense::dot(&psi[i], rates));
@@ -128,6 +135,16 @@ impl<R: Ordered, const N: usize, const M: usize> ZeroOrderHold<R, N, M> {
             Err(DiscreteError::NotFinite)
         }
     }
+}
+
+/// A sum of matrices.
+fn sum<R: Real, const N: usize>(a: &[[R; N]; N], b: &[[R; N]; N]) -> [[R; N]; N] {
+    core::array::from_fn(|i| core::array::from_fn(|j| a[i][j] + b[i][j]))
+}
+
+/// A matrix with the unit matrix added.
+fn with_one<R: Real, const N: usize>(a: &[[R; N]; N]) -> [[R; N]; N] {
+    core::array::from_fn(|i| core::array::from_fn(|j| if i == j { a[i][j] + R::one() } else { a[i][j] }))
 }
 
 /// The discrete model of a continuous one with a zero-order hold: `a` is `Phi`, `b` is `Gamma` of [`ZeroOrderHold`], which has the

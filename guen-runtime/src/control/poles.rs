@@ -58,7 +58,7 @@ impl<R: Ordered> Pole<R> {
 ///
 /// By the QR algorithm on the balanced matrix, about `10 N^3` operations, no allocation. Each is right to a few roundings of the norm
 /// times its own condition: a pole that is there `m` times comes as `m` of them some `epsilon^(1/m)` apart. `None` if an entry is
-/// infinite or NaN, or if the algorithm does not converge, which nobody has seen.
+/// infinite or NaN, if a pole is beyond the largest number, or if the algorithm does not converge, which nobody has seen.
 ///
 /// ```
 /// use guen_runtime::control::{Pole, poles};

@@ -276,3 +276,39 @@ fn poles_come_in_order() {
     assert_eq!(found, [2.0, -1.0, -3.0]);
     assert_eq!(poles(&[[f64::NAN]]), None);
 }
+
+/// A slow mode beside fast ones: `exp(-h)` and what an input makes of it, also in a basis that mixes them.
+#[test]
+fn slow_modes_keep_their_digits_beside_fast_ones() {
+    for fast in [1.0, 30.0, 1e3, 1e6, 1e9, 1e12, 1e15] {
+        let stiff = Linearization { a: diagonal([-fast, -1.0]), b: [[fast], [1.0]] };
+        let Linearization { a, b } = c2d(&stiff, 1.0).unwrap();
+        let slow = libm::exp(-1.0);
+        assert!((a[1][1] - slow).abs() < 1e-15 * 4.0 && a[0][1] == 0.0, "{fast:e}: {a:?}");
+        assert!((b[1][0] - (1.0 - slow)).abs() < 4e-15, "{fast:e}: {b:?}");
+        assert!(
+            (a[0][0] - libm::exp(-fast)).abs() < 4e-15 && (b[0][0] - (1.0 - libm::exp(-fast))).abs() < 4e-15
+        );
+        // x' = y, y' = -fast y - fast x: nearly x' = -x.
+        if fast >= 1e3 {
+            let coupled = Linearization { a: [[0.0, 1.0], [-fast, -fast]], b: [[0.0], [fast]] };
+            let Linearization { a, b } = c2d(&coupled, 1.0).unwrap();
+            let root = libm::sqrt(1.0 - 4.0 / fast);
+            let rate = -2.0 / (1.0 + root);
+            let wanted = libm::exp(rate) * (1.0 + root) / (2.0 * root);
+            assert!((a[0][0] - wanted).abs() < 1e-13, "{fast:e}: {} {wanted}", a[0][0]);
+            assert!((b[0][0] - (1.0 - wanted)).abs() < 1e-13, "{fast:e}: {b:?} {wanted}");
+        }
+    }
+}
+
+#[test]
+fn nothing_is_reached_in_a_model_that_is_no_number() {
+    for bad in [f64::NAN, f64::INFINITY] {
+        let model = Linearization { a: [[0.0, bad], [0.0, 0.0]], b: [[0.0], [1.0]] };
+        let found = controllability(&model, 1e-9);
+        assert!(found.rank == 0 && found.modes().is_empty() && found.require().is_err());
+        let model = Linearization { a: [[0.0, 1.0], [0.0, 0.0]], b: [[bad], [1.0]] };
+        assert_eq!(controllability(&model, 1e-9).rank, 0);
+    }
+}

@@ -20,6 +20,7 @@ pub(crate) fn eigenvalues<R: Ordered, const N: usize>(a: &[[R; N]; N]) -> Option
     }
     let mut h = *a;
     balance(&mut h);
+    let sizes = scale(&mut h);
     to_hessenberg(&mut h);
     let mut values = [[R::zero(); 2]; N];
     // The rows `..count` have still to be done.
@@ -42,7 +43,26 @@ pub(crate) fn eigenvalues<R: Ordered, const N: usize>(a: &[[R; N]; N]) -> Option
             step(&mut h, first, last, steps % STEPS_OF_ONE_KIND == 0);
         }
     }
-    Some(values)
+    // One power of two after the other, of which a real with fewer exponents may not hold the product.
+    let values = values.map(|value| value.map(|part| sizes.into_iter().fold(part, |part, size| part * size)));
+    values.iter().flatten().all(|part| part.is_finite()).then_some(values)
+}
+
+/// Divides a matrix by a power of two, so that its largest entry is about one and no square overflows or vanishes. Returns two factors
+/// of that power.
+fn scale<R: Ordered, const N: usize>(h: &mut [[R; N]; N]) -> [R; 2] {
+    let size = largest(h.iter().flatten().copied());
+    if size == 0.0 || !size.is_finite() {
+        return [R::one(); 2];
+    }
+    let exponent = libm::floor(libm::log2(size));
+    let half = libm::floor(0.5 * exponent);
+    let powers = [half, exponent - half];
+    for power in powers {
+        let down = R::from_f64(libm::exp2(-power));
+        h.iter_mut().flatten().for_each(|x| *x *= down);
+    }
+    powers.map(|power| R::from_f64(libm::exp2(power)))
 }
 
 /// Scales rows and columns by powers of two until those of one index are about as long: units leave the matrix.
@@ -255,6 +275,30 @@ mod tests {
         let a = [[0.0, 1e-9, 0.0], [-1e12, -1.0, 1e3], [0.0, 0.0, -1e-6]];
         let found = sorted(eigenvalues(&a).unwrap());
         assert!((found[0][0] + 0.5).abs() < 1e-12 && (found[2][0] + 1e-6).abs() < 1e-18, "{found:?}");
+    }
+
+    #[test]
+    fn sizes_do_not_matter() {
+        let turning = |size: f64| [[size, -size], [size, size]];
+        for size in [1e200, 1e-200, 1e307, 1e-310, 5e-324] {
+            assert_eq!(eigenvalues(&turning(size)), Some([[size, size], [size, -size]]), "{size:e}");
+        }
+        let mut draw = Sequence(3);
+        let drawn: [[f64; 6]; 6] = core::array::from_fn(|_| core::array::from_fn(|_| draw.next()));
+        let plain = eigenvalues(&drawn).unwrap();
+        for power in [-1000, -60, 60, 1000] {
+            let size = libm::exp2(f64::from(power));
+            let found = eigenvalues(&drawn.map(|row| row.map(|x| x * size))).unwrap();
+            assert_eq!(found, plain.map(|value| value.map(|part| part * size)), "{power}");
+        }
+        // Entries that are far apart, and a product of one.
+        let found = sorted(eigenvalues(&[[0.0, 1e300], [1e-300, 0.0]]).unwrap());
+        assert!((found[0][0] + 1.0).abs() < 1e-15 && (found[1][0] - 1.0).abs() < 1e-15, "{found:?}");
+        // In single precision, too.
+        let found = eigenvalues(&turning(1.0).map(|row| row.map(|x| x as f32 * 1e30))).unwrap();
+        assert_eq!(found, [[1e30, 1e30], [1e30, -1e30]]);
+        // Beyond the largest number.
+        assert_eq!(eigenvalues(&[[1.7e308, 1.7e308], [1.7e308, 1.7e308]]), None);
     }
 
     #[test]
