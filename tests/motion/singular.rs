@@ -149,3 +149,33 @@ fn what_is_cheap_to_look_at_is_looked_at_in_every_step() {
         }
     }
 }
+
+mechanical_system! {
+    /// Two particles beside each other on a blade that moves over a table which turns: their mass may not be minus a half, wherever the table is.
+    system OnTable {
+        constants { m = 2, J = 1/2, om = 0.7 }
+        coordinates { x, y, phi }
+        let table = rot_z(om*t);
+        let place = table*vec(x, y, 0);
+        let ahead = table*vec(cos(phi), sin(phi), 0);
+        let aside = table*vec(-sin(phi), cos(phi), 0);
+        particles { m at place; 1/2 at place; }
+        kinetic_energy = J/2*dot(phi)^2;
+        constraints { blade: inner(dot(place), aside) = 0; }
+        parameters { v = inner(dot(place), ahead); w = dot(phi); }
+    }
+}
+
+/// What the angle of the table does not change is a constant, and no function whose roundings grow with it.
+#[test]
+fn a_constant_on_a_turning_table_is_none_of_time() {
+    assert!(on_table::DOMAIN.is_empty(), "{:?}", on_table::DOMAIN);
+    let start = on_table::State { x: 0.3, y: -0.2, phi: 0.5, v: 0.4, w: -0.3 };
+    let table = OnTable::new().prepare().unwrap();
+    // After whole turns it stands as it did.
+    let run = |t: f64| table.simulate(&start, t..t + 1.0).unwrap().end();
+    let turn = 2.0 * std::f64::consts::PI / 0.7;
+    let (first, late) = (run(0.0), run((1.7e9 / turn).round() * turn));
+    assert!((first.x - late.x).abs() + (first.y - late.y).abs() < 1e-5, "{first:?} {late:?}");
+    assert!(OnTable { m: -0.5, ..OnTable::new() }.prepare().is_err());
+}

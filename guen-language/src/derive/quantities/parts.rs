@@ -148,8 +148,10 @@ pub(in crate::derive) fn parts(
             continue;
         }
         let seen = view.of(model, seen);
-        if model.bench.graph.roles(seen).is_constant() {
-            constants.push((None, seen));
+        // Of squares that add up to one the sum has roundings of its own, which grow with the angle.
+        let image = shown.image(seen);
+        if model.bench.graph.roles(image).is_constant() {
+            constants.push((None, image));
         } else {
             determined.push(place);
             domain.push(seen);
