@@ -2,6 +2,7 @@
 
 mod absolute_values;
 mod angles;
+mod cancelling;
 mod carried;
 mod common;
 mod components;

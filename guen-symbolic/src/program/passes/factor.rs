@@ -122,21 +122,30 @@ fn factor(graph: &mut Graph, net: &mut Net, mut constant: ExprId, mut terms: Vec
             }
         }
         let inner = factor(graph, net, inner_constant, group);
-        // A single term keeps its coefficient outside of the product.
+        // A single term keeps its coefficient outside of the product; terms may have cancelled, and leave a constant.
         let node = match inner.terms[..] {
+            [] => {
+                outer = graph.mul(outer, inner.constant);
+                None
+            }
             [(node, k)] if graph.is_zero(inner.constant) => {
                 outer = graph.mul(outer, k);
-                node
+                Some(node)
             }
-            _ => net.intern(NetNode::Sum(inner)),
+            _ => Some(net.intern(NetNode::Sum(inner))),
         };
-        match net.node(node) {
-            NetNode::Product(inner) if !factors.entries().is_empty() => {
+        match node.map(|node| (node, net.node(node))) {
+            None => {}
+            Some((_, NetNode::Product(inner))) if !factors.entries().is_empty() => {
                 for (node, e) in inner {
                     *factors.or_insert(*node, 0) += e;
                 }
             }
-            _ => *factors.or_insert(node, 0) += 1,
+            Some((node, _)) => *factors.or_insert(node, 0) += 1,
+        }
+        if node.is_none() && factors.entries().is_empty() {
+            constant = graph.add(constant, outer);
+            continue;
         }
         let node = net.plain_product(factors);
         add_term(graph, &mut finished, node, outer);
