@@ -4,6 +4,7 @@ mod absolute_values;
 mod angles;
 mod cancelling;
 mod carried;
+mod classes;
 mod common;
 mod components;
 mod components_alone;

@@ -63,10 +63,12 @@ impl Closure {
             if missing == 0 || !complete {
                 break;
             }
-            // Numbers modulo the prime have the sign of a root by chance: the rank is asked of expressions then.
-            let has_signs = fresh.iter().flatten().any(|e| bench.zero.has_signs_or_roots(&bench.graph, *e));
+            // Numbers modulo the prime have the sign of a root by chance, and there may be none on the manifold: the rank is asked of
+            // expressions then.
+            let one_by_one = !bench.zero.manifold_is_solved()
+                || fresh.iter().flatten().any(|e| bench.zero.has_signs_or_roots(&bench.graph, *e));
             let all = || (0..fresh.len()).flat_map(|y| (0..=l).map(move |r| (y, r))).collect();
-            let found = match has_signs {
+            let found = match one_by_one {
                 true => Some(all()),
                 false => next_level::enlarging(bench, (forms, operators, brackets), &fresh, &kept, missing),
             };
@@ -74,7 +76,7 @@ impl Closure {
                 complete = false;
                 break;
             };
-            if !has_signs && found.len() == missing {
+            if !one_by_one && found.len() == missing {
                 // No constraint is left that could be integrable, and nothing looks at these brackets.
                 growth.push(n);
                 break;
@@ -89,7 +91,7 @@ impl Closure {
                     complete = false;
                     break;
                 }
-                match has_signs {
+                match one_by_one {
                     true => {
                         let larger = enlarges(bench, &mut kept, &bracket);
                         complete &= larger.is_some();
@@ -130,7 +132,7 @@ fn enlarges(bench: &mut Workbench, kept: &mut Vec<Vec<ExprId>>, y: &[ExprId]) ->
         return Some(false);
     }
     kept.push(y.to_vec());
-    let rank = bench.zero.rank(&mut bench.graph, kept, true);
+    let rank = bench.zero.observed_rank(&mut bench.graph, kept);
     let larger = rank.map(|rank| rank == kept.len());
     if larger != Some(true) {
         kept.pop();
@@ -187,7 +189,7 @@ fn annihilator(
     for v in &touched {
         let trial: Vec<usize> = pivots.iter().copied().chain([*v]).collect();
         let columns: Vec<Vec<ExprId>> = trial.iter().map(|v| kept.iter().map(|y| y[*v]).collect()).collect();
-        if bench.zero.rank(&mut bench.graph, &columns, true) == Some(trial.len()) {
+        if bench.zero.observed_rank(&mut bench.graph, &columns) == Some(trial.len()) {
             pivots = trial;
         }
     }

@@ -1,6 +1,6 @@
 //! The derivation as a whole: from a declared system to everything that is emitted.
 
-use super::coordinates::constancy::{is_constant, rests};
+use super::coordinates::constancy::{is_constant, jumps, rests};
 use super::fault::{DerivationError, affordable, few_or_uncoupled};
 use super::formulations::stated::Stated;
 use super::formulations::{self, Formulated, Found, large};
@@ -281,7 +281,7 @@ fn classify(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame, closur
                 let c = frame.brackets.coefficient(bench, r, s, t);
                 // Without constraints on positions nothing rests but constants.
                 let rests = !system.holonomic.is_empty() && rests(bench, system, frame, c);
-                if !rests && !is_constant(bench, c, &variables) {
+                if !(rests || is_constant(bench, c, &variables)) || jumps(bench, c) {
                     constant = false;
                     break 'all;
                 }

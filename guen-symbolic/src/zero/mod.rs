@@ -191,6 +191,18 @@ impl ZeroTest {
         self.derivatives_vanish(g, e, variables, DERIVATIVE_DEPTH)
     }
 
+    /// Whether a function without derivatives by what moves has several values, as `sign(x)` has, and `atan(x) + atan(1/x)`: seen at real points
+    /// with the same constants. Roots are what they are on the manifold, and such points do not lie there.
+    pub(crate) fn has_several_values(&mut self, g: &Graph, e: ExprId) -> bool {
+        self.table.scan(g);
+        if self.manifold.is_some() && self.table.flags[e.index()] & PIECEWISE == 0 {
+            return false;
+        }
+        let mut values = (0..REAL_POINTS as u64).map(|number| RealPoint::with_first_constants(g, e, number));
+        let Some(first) = values.find(Option::is_some).flatten() else { return false };
+        values.flatten().any(|value| value.differs(first))
+    }
+
     fn derivatives_vanish(&mut self, g: &mut Graph, e: ExprId, variables: &[ExprId], depth: u32) -> Verdict {
         self.table.scan(g);
         // Between its jumps a function may be constant, and change at them.
@@ -374,13 +386,31 @@ impl ZeroTest {
         if flat.iter().any(|e| self.has_signs_or_roots(g, *e)) {
             for number in 0..REAL_POINTS {
                 let Some(point) = self.real_point(g, number, on_manifold) else { continue };
-                rank = rank.max(point.rank(g, rows));
+                rank = rank.max(point.rank(g, rows).unwrap_or(0));
                 if rank == rows.len() {
                     break;
                 }
             }
         }
         Some(rank)
+    }
+
+    /// The rank of a matrix at general points of the manifold, observed at real points in 237 bits where there are none modulo the prime: all rows
+    /// at one of them, fewer at [`REAL_WITNESSES`]; `None` if there are not as many.
+    pub(crate) fn observed_rank(&mut self, g: &mut Graph, rows: &[Vec<ExprId>]) -> Option<usize> {
+        if self.manifold_is_solved() {
+            return self.rank(g, rows, true);
+        }
+        let (mut rank, mut witnesses) = (0, 0);
+        for number in 0..REAL_POINTS {
+            let Some(point) = self.real_point(g, number, true) else { continue };
+            let Some(observed) = point.rank(g, rows) else { continue };
+            (rank, witnesses) = (rank.max(observed), witnesses + 1);
+            if rank == rows.len() || witnesses == REAL_WITNESSES {
+                return Some(rank);
+            }
+        }
+        None
     }
 
     /// The equations `f(t, x) = 0` that follow from others of them wherever all hold, although gradients by the coordinates are

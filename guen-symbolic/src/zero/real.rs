@@ -5,7 +5,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use f256::f256;
 
 use super::field::mix;
-use crate::algebra::{ExprId, FastMap, Function, Graph, Multivariate, Node, Rational, SignBound, SymbolId};
+use crate::algebra::{ExprId, FastMap, Function, Graph, Multivariate, Node, Rational, Role, SignBound, SymbolId};
 
 /// The operations that evaluation needs of a kind of real number.
 pub trait Real:
@@ -260,7 +260,7 @@ fn stand_in<R: Real>(function: u16, orders: &[u8], arguments: &[R]) -> R {
 
 /// A value with the power of two that bounds its absolute error.
 #[derive(Clone, Copy, Debug)]
-struct Ball {
+pub(super) struct Ball {
     value: f256,
     error: f64,
 }
@@ -276,6 +276,11 @@ impl Ball {
 
     fn is_distinct(self) -> bool {
         exponent(self.value) > self.error + DISTINCT
+    }
+
+    /// Whether two values are clearly not the same.
+    pub(super) fn differs(self, other: Ball) -> bool {
+        self.minus(other).is_distinct()
     }
 
     fn minus(self, other: Ball) -> Ball {
@@ -362,6 +367,15 @@ impl RealPoint {
         if negative { -size } else { size }
     }
 
+    /// The value of an expression at the point of a number, with the constants of the first; `None` outside its domain.
+    pub(super) fn with_first_constants(graph: &Graph, e: ExprId, number: u64) -> Option<Ball> {
+        let (mut point, first) = (RealPoint::new(number), RealPoint::new(0));
+        let symbols = graph.symbols_in(&[e]);
+        let constants = symbols.into_iter().filter(|s| graph.symbol_info(*s).role == Role::Constant);
+        point.fixed = constants.map(|s| (s, f256::from(first.draw(graph, s)))).collect();
+        point.ball(graph, e)
+    }
+
     /// The value of an expression; `None` outside its domain.
     fn ball(&mut self, graph: &Graph, e: ExprId) -> Option<Ball> {
         for id in graph.reachable(&[e], |id| self.memo.contains_key(&id)) {
@@ -372,10 +386,10 @@ impl RealPoint {
     }
 
     /// The rank of a matrix as far as this point shows it: the number of rows with an entry that is clearly not zero, beside those
-    /// before. None where an entry has no value.
-    pub(super) fn rank(&mut self, graph: &Graph, rows: &[Vec<ExprId>]) -> usize {
+    /// before; `None` where an entry has no value.
+    pub(super) fn rank(&mut self, graph: &Graph, rows: &[Vec<ExprId>]) -> Option<usize> {
         let values = rows.iter().map(|row| row.iter().map(|e| self.ball(graph, *e)).collect());
-        let Some(mut rows) = values.collect::<Option<Vec<Vec<Ball>>>>() else { return 0 };
+        let mut rows = values.collect::<Option<Vec<Vec<Ball>>>>()?;
         let mut rank = 0;
         while let Some((place, column)) = rows.iter().enumerate().find_map(|(place, row)| {
             row.iter().position(|entry| entry.is_distinct()).map(|column| (place, column))
@@ -389,7 +403,7 @@ impl RealPoint {
                 }
             }
         }
-        rank
+        Some(rank)
     }
 
     /// Returns the verdict of this point on an expression.

@@ -44,3 +44,9 @@ pub(in crate::motion) fn is_constant(bench: &mut Workbench, e: ExprId, variables
         bench.graph.is_zero(slope) || bench.verdict_on_manifold(slope) == Verdict::Zero
     })
 }
+
+/// Whether a function that is constant wherever it has derivatives is another constant elsewhere, as `sign(x)` is.
+pub(in crate::motion) fn jumps(bench: &mut Workbench, e: ExprId) -> bool {
+    let moving = Roles::of(Role::Coordinate).or(Roles::of(Role::Time));
+    bench.graph.roles(e).meets(moving) && bench.zero.has_several_values(&bench.graph, e)
+}
