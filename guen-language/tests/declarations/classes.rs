@@ -115,3 +115,32 @@ fn a_loop_on_wheels_is_nonholonomic() {
         assert!(derivation.closure.complete && derivation.closure.integrable.len() == 5);
     });
 }
+
+/// Coefficients whose functions are the same only where the positions hold, and at points modulo the prime are not.
+#[test]
+fn brackets_that_vanish_where_positions_hold_are_none() {
+    let closure = |coefficient: &str, equation: &str| {
+        let text = format!(
+            "pub system Coupled {{
+                coordinates {{ a, b, x, y, z }}
+                kinetic_energy = dot(a)^2 + dot(b)^2 + dot(x)^2 + dot(y)^2 + dot(z)^2;
+                constraints {{ c: dot(z) = ({coefficient})*x*dot(y); }}
+                holonomic {{ h: {equation}; }}
+            }}"
+        );
+        derived(&text, |derived| {
+            let closure = &derived.system.derivation.closure;
+            (closure.growth.clone(), closure.integrable.len(), derived.system.derivation.class)
+        })
+    };
+    for (coefficient, equation) in [
+        ("cos(a) - cos(b)", "a = b"),
+        ("exp(a) - exp(2*b - a)", "a = b"),
+        ("acos(a) + asin(b) - pi/2", "a = b"),
+        ("cos(a) - cos(2*b + t)*cos(b) + sin(2*b + t)*sin(b)", "a = 3*b + t"),
+    ] {
+        assert_eq!(closure(coefficient, equation), ([3].into(), 2, Class::LieGroup), "{coefficient}");
+    }
+    let (growth, integrable, class) = closure("cos(a) - cos(b)", "a = b + 2*t");
+    assert_eq!((growth, integrable, class), ([3, 4].into(), 1, Class::Nonholonomic));
+}

@@ -9,6 +9,7 @@
 pub(crate) mod field;
 pub(crate) mod jets;
 mod manifold;
+mod observed;
 mod positions;
 mod real;
 mod redundant;
@@ -19,7 +20,7 @@ mod tests;
 
 use manifold::Manifold;
 pub(crate) use positions::drawn_states;
-use real::{RealPoint, Sighting};
+use real::{RealPoint, RealRank, Sighting};
 pub(crate) use sample::Sample;
 use table::{ATOM, OPAQUE, PIECEWISE, ROOT, SIGN, TRANSCENDENTAL, Table, UNDEFINED};
 
@@ -56,6 +57,8 @@ const KEPT_POINTS: usize = 128;
 const REAL_POINTS: usize = 12;
 /// Real points in the domain that must show nothing before an expression with inverse functions counts as zero.
 const REAL_WITNESSES: usize = 8;
+/// Real points that must show a dependence of rows before it is one.
+const LEAST_WITNESSES: usize = 4;
 /// Derivatives of derivatives that are looked at for inverse functions.
 const DERIVATIVE_DEPTH: u32 = 2;
 /// Work on derivatives after which the question stays open: those of nested functions may be a thousand times as large as the
@@ -379,38 +382,28 @@ impl ZeroTest {
             rank = rank.max(field::rank(&matrix));
             // No point shows more than all rows.
             if rank == rows.len() {
-                return Some(rank);
+                break;
             }
         }
-        // Residues have the sign of a root by chance, and two points need not have both: `|x| - x` vanishes at half of them.
-        if flat.iter().any(|e| self.has_signs_or_roots(g, *e)) {
-            for number in 0..REAL_POINTS {
-                let Some(point) = self.real_point(g, number, on_manifold) else { continue };
-                rank = rank.max(point.rank(g, rows).unwrap_or(0));
-                if rank == rows.len() {
-                    break;
-                }
-            }
+        let has_signs = flat.iter().any(|e| self.has_signs_or_roots(g, *e));
+        // A residue may differ where the function does not, and has the sign of a root by chance, which two points need not have both:
+        // `|x| - x` vanishes at half of them.
+        let needs_points =
+            (rank > 0 && !self.is_exact(g, &flat, on_manifold)) || (rank < rows.len() && has_signs);
+        if !needs_points {
+            return Some(rank);
         }
-        Some(rank)
-    }
-
-    /// The rank of a matrix at general points of the manifold, observed at real points in 237 bits where there are none modulo the prime: all rows
-    /// at one of them, fewer at [`REAL_WITNESSES`]; `None` if there are not as many.
-    pub(crate) fn observed_rank(&mut self, g: &mut Graph, rows: &[Vec<ExprId>]) -> Option<usize> {
-        if self.manifold_is_solved() {
-            return self.rank(g, rows, true);
-        }
-        let (mut rank, mut witnesses) = (0, 0);
+        let (mut observed, mut witnesses) = (0, 0);
         for number in 0..REAL_POINTS {
-            let Some(point) = self.real_point(g, number, true) else { continue };
-            let Some(observed) = point.rank(g, rows) else { continue };
-            (rank, witnesses) = (rank.max(observed), witnesses + 1);
-            if rank == rows.len() || witnesses == REAL_WITNESSES {
-                return Some(rank);
+            let Some(point) = self.real_point(g, number, on_manifold) else { continue };
+            let Some(RealRank { rank: own, is_certain }) = point.rank(g, rows) else { continue };
+            observed = observed.max(own);
+            witnesses += usize::from(is_certain);
+            if observed == rows.len() || (observed == rank && !has_signs) {
+                break;
             }
         }
-        None
+        Some(if witnesses < LEAST_WITNESSES { rank.max(observed) } else { observed })
     }
 
     /// The equations `f(t, x) = 0` that follow from others of them wherever all hold, although gradients by the coordinates are

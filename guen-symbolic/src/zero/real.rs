@@ -318,6 +318,15 @@ pub(super) enum Sighting {
     Nothing,
 }
 
+/// The rank of a matrix at a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RealRank {
+    /// The rank is no smaller.
+    pub(super) rank: usize,
+    /// Whether it is no larger: all that is left is zero to all digits.
+    pub(super) is_certain: bool,
+}
+
 /// A random point of the domain.
 #[derive(Debug, Default)]
 pub(super) struct RealPoint {
@@ -387,7 +396,7 @@ impl RealPoint {
 
     /// The rank of a matrix as far as this point shows it: the number of rows with an entry that is clearly not zero, beside those
     /// before; `None` where an entry has no value.
-    pub(super) fn rank(&mut self, graph: &Graph, rows: &[Vec<ExprId>]) -> Option<usize> {
+    pub(super) fn rank(&mut self, graph: &Graph, rows: &[Vec<ExprId>]) -> Option<RealRank> {
         let values = rows.iter().map(|row| row.iter().map(|e| self.ball(graph, *e)).collect());
         let mut rows = values.collect::<Option<Vec<Vec<Ball>>>>()?;
         let mut rank = 0;
@@ -403,7 +412,8 @@ impl RealPoint {
                 }
             }
         }
-        Some(rank)
+        let is_certain = rows.iter().flatten().all(|entry| entry.error < USELESS_BOUND);
+        Some(RealRank { rank, is_certain })
     }
 
     /// Returns the verdict of this point on an expression.
