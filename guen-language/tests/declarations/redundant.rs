@@ -85,6 +85,71 @@ fn rows_and_columns_of_a_rotation_say_the_same() {
     });
 }
 
+/// Two wheels that share an axle: the rows of velocities are the same where the angles are.
+fn wheels(second: &str, parameters: &str) -> String {
+    format!(
+        "pub system Wheels {{
+            constants {{ m > 0, r = 2 }}
+            coordinates {{ a, b, x, y, z }}
+            kinetic_energy = m/2*(dot(a)^2 + dot(b)^2 + dot(x)^2 + dot(y)^2 + dot(z)^2) + r*0;
+            parameters {{ {parameters} }}
+            constraints {{ first: dot(z) = r*sin(a)*dot(x) + t; second: {second} = 0; }}
+            holonomic {{ axle: a = b; }}
+            forces {{ x along dot(y); 3*y along dot(x); }}
+        }}"
+    )
+}
+
+#[test]
+fn rows_of_velocities_that_follow_where_positions_hold_do_not_count() {
+    let rates = |text: &str, names: &[&str]| {
+        derived(text, |derived| {
+            let redundant = derived.model.redundant.iter().map(|one| one.entry.name.as_str());
+            assert_eq!(redundant.collect::<Vec<_>>(), names, "{text}");
+            let value = |symbol| match derived.model.bench.graph.symbol_info(symbol).name.as_str() {
+                "a" | "b" => 0.7,
+                "x" => 0.3,
+                "y" => -0.4,
+                "u" => 1.1,
+                _ => 0.9,
+            };
+            evaluated(&derived.system, function::RHS, value).expect("rates")
+        })
+    };
+    let parameters = "u = dot(x); v = dot(y); w = dot(a);";
+    let alone = wheels("0*dot(x)", parameters).replace("second: 0*dot(x) = 0;", "");
+    let expected = rates(&alone, &[]);
+    for second in [
+        "dot(z) - r*sin(b)*dot(x) - t",
+        "(1 + y^2)*(dot(z) - r*sin(b)*dot(x) - t)",
+        "first + (cos(a) - cos(b))*dot(x)",
+        "dot(a) - dot(b) + (a - b)*dot(z)",
+        "2*(dot(z) - r*sin(b)*dot(x) - t) + sin(x)*(dot(a) - dot(b))",
+    ] {
+        assert_eq!(rates(&wheels(second, parameters), &["second"]), expected, "{second}");
+        let lines = derived(&wheels(second, ""), |derived| {
+            ReportLines::of(&derived.model, &derived.system).to_text()
+        });
+        assert!(lines.contains("second is no form: it follows from "), "{lines}");
+    }
+    // What depends everywhere, or contradicts, is a mistake.
+    for second in ["dot(z) - r*sin(a)*dot(x) - t", "dot(a) - dot(b)", "dot(z) - r*sin(b)*dot(x) - t - 1"] {
+        fault(&wheels(second, ""));
+    }
+    let asked = wheels("dot(z) - r*sin(b)*dot(x) - t", "")
+        .replace("forces", "outputs { o = reaction(second); } forces");
+    assert!(fault(&asked).contains("the reaction of `second` is not determined"));
+}
+
+/// Where one branch of the positions makes rows dependent and another does not, none of them is left out.
+#[test]
+fn rows_that_follow_on_one_branch_only_stay() {
+    let text = wheels("dot(z) - r*cos(b)*dot(x) - t", "")
+        .replace("a = b", "sin(a) = sin(b)")
+        .replace("r*sin(a)", "r*cos(a)");
+    derived(&text, |derived| assert!(derived.model.redundant.is_empty()));
+}
+
 /// A particle in the plane with a second equation on its distance.
 fn circle(second: &str) -> String {
     format!(

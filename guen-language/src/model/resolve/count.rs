@@ -49,9 +49,11 @@ pub(super) fn check(
         let names = quoted(redundant.iter().map(|taken| taken.entry.entry.name.as_str()));
         let follow = if redundant.len() == 1 { "follows" } else { "follow" };
         let count = if redundant.len() == 1 { "does not count" } else { "do not count" };
-        fault = fault.note(format!(
-            "{names} {follow} from the other holonomic constraints wherever all of them hold, and {count}"
-        ));
+        let others = match redundant.iter().all(|taken| taken.equation.is_some()) {
+            true => "the other holonomic constraints",
+            false => "the other constraints",
+        };
+        fault = fault.note(format!("{names} {follow} from {others} wherever all of them hold, and {count}"));
     }
     let surplus = raw.len() - n;
     let combinations = forms.map_or_else(Vec::new, |forms| combinations(&mut eval.bench, forms, degrees));

@@ -32,6 +32,9 @@ impl<'a> Resolver<'a, '_> {
             self.eval.check_divisors_on_manifold();
         }
         let (mut forms, mut idle) = self.eval.linear_forms(&raw, &velocities);
+        if let Some(given) = forms.as_mut().filter(|_| !failed) {
+            redundant.extend(redundant::taken_rows(&mut self.eval, &mut raw, given, degrees));
+        }
         let mut chosen = None;
         if raw.len() + idle < velocities.len() {
             match &forms {
@@ -148,6 +151,8 @@ impl<'a> Resolver<'a, '_> {
         contacts.iter_mut().flat_map(|entry| &mut entry.rows).for_each(|row| written_out(&mut row.form));
         let (redundant, further): (Vec<_>, Vec<_>) =
             redundant.into_iter().map(|taken| (taken.entry, taken.equation)).unzip();
+        // Those with an equation stand before the others.
+        let further = further.into_iter().flatten().collect();
         let zero = bench.graph.zero();
         let mut structure = self.eval.shapes.system;
         structure.gravity = self.gravity;
