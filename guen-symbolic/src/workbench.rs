@@ -123,6 +123,18 @@ impl Workbench {
         self.zero.verdict_on_manifold(&mut self.graph, e)
     }
 
+    /// Whether the expression vanishes wherever the holonomic constraints hold, as far as that is proved or, where nothing can be, as points show
+    /// in 237 bits.
+    pub fn is_seen_to_vanish(&mut self, e: ExprId) -> bool {
+        match self.verdict_on_manifold(e) {
+            Verdict::Zero => true,
+            Verdict::Nonzero => false,
+            Verdict::Unknown => {
+                !self.is_exhausted() && self.zero.observed_rank(&mut self.graph, &[vec![e]]) == Some(0)
+            }
+        }
+    }
+
     /// Whether more was built than a compiler should spend. From then on questions about expressions stay open, so
     /// that whoever is at work comes to an end soon; the result is given up.
     pub(crate) fn is_exhausted(&self) -> bool {

@@ -118,6 +118,27 @@ fn dependent_position(
     fault.help(format!("delete `{name}`"))
 }
 
+/// A form without velocities wherever the holonomic constraints hold, and what is left of a constraint there.
+fn vanishing(model: &mut Model<'_>, (noun, name, place): (&str, &str, Span), rest: Option<ExprId>) -> Fault {
+    let rest = rest.filter(|rest| noun == "constraint" && !model.bench.is_seen_to_vanish(*rest));
+    let Some(rest) = rest else {
+        return Fault::new(
+            place,
+            format!("{noun} `{name}` vanishes wherever the holonomic constraints hold"),
+        );
+    };
+    let text = short(model, rest);
+    let fault = Fault::new(
+        place,
+        format!("the velocities of constraint `{name}` vanish wherever the holonomic constraints hold"),
+    );
+    let fault = fault.note(format!("there it requires `{text} = 0`"));
+    match model.bench.graph.roles(rest).is_constant() {
+        true => fault,
+        false => fault.help(format!("declare it under `holonomic`: `{name}: {text} = 0;`")),
+    }
+}
+
 fn report_singular_forms(model: &mut Model<'_>, singular: SingularForms, faults: &mut Faults) {
     let SingularForms { mut combination, rest } = singular;
     if combination.is_empty() {
@@ -142,7 +163,7 @@ fn report_singular_forms(model: &mut Model<'_>, singular: SingularForms, faults:
             let fault = Fault::new(place, format!("the rate of `{name}` vanishes wherever `{name}` holds"));
             fault.help("write the constraint so that its gradient differs from zero: `x - y = 0` for `(x - y)^2 = 0`")
         } else {
-            Fault::new(place, format!("{noun} `{name}` vanishes wherever the holonomic constraints hold"))
+            vanishing(model, (noun, &name, place), rest)
         };
         faults.report(fault);
         return;

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use guen_symbolic::{ExprId, Flow, Node, PowerError, Rational, Role, Roles, Verdict, Workbench};
+use guen_symbolic::{ExprId, Flow, Node, PowerError, Rational, Role, Roles, Workbench};
 use proc_macro2::Span;
 
 use super::assumed_rates::AssumedRates;
@@ -490,7 +490,7 @@ impl Evaluator<'_> {
     /// The second look at divisors: on the holonomic constraints.
     pub(super) fn check_divisors_on_manifold(&mut self) {
         for (divisor, span) in std::mem::take(&mut self.divisors) {
-            if self.bench.verdict_on_manifold(divisor) == Verdict::Zero {
+            if self.bench.is_seen_to_vanish(divisor) {
                 let text = self.bench.graph.text_limited(divisor, LONGEST_NOTE);
                 let text = text.map_or_else(|| "the divisor".to_owned(), |text| format!("`{text}`"));
                 self.faults.report(

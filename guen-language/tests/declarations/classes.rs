@@ -144,3 +144,22 @@ fn brackets_that_vanish_where_positions_hold_are_none() {
     let (growth, integrable, class) = closure("cos(a) - cos(b)", "a = b + 2*t");
     assert_eq!((growth, integrable, class), ([3, 4].into(), 1, Class::Nonholonomic));
 }
+
+/// Forces and loads that vanish only where the positions hold change no energy.
+#[test]
+fn energy_is_kept_by_what_vanishes_where_positions_hold() {
+    let is_conservative = |load: &str| {
+        let text = format!(
+            "pub system Pushed {{
+                coordinates {{ a, b, x }}
+                kinetic_energy = dot(a)^2 + dot(b)^2 + dot(x)^2;
+                holonomic {{ h: a = b; }}
+                {load}
+            }}"
+        );
+        derived(&text, |derived| derived.system.derivation.conservative)
+    };
+    assert!(is_conservative("forces { (cos(a) - cos(b))*dot(x) along dot(x); }"));
+    assert!(is_conservative("force_function = t*(exp(a) - exp(b));"));
+    assert!(!is_conservative("forces { (cos(a) - cos(2*b))*dot(x) along dot(x); }"));
+}

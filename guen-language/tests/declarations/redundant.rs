@@ -141,6 +141,25 @@ fn rows_of_velocities_that_follow_where_positions_hold_do_not_count() {
     assert!(fault(&asked).contains("the reaction of `second` is not determined"));
 }
 
+/// A row whose velocities vanish where the positions hold is told by what is left of it there.
+#[test]
+fn rows_without_velocities_where_positions_hold_are_told() {
+    for factor in ["a - b", "cos(a) - cos(b)"] {
+        for (rest, note) in [("1", "there it requires `1 = 0`"), ("sin(y)", "`second: sin(y) = 0;`")] {
+            let text = fault(&wheels(&format!("({factor})*dot(x) - {rest}"), ""));
+            assert!(text.contains("the velocities of constraint `second` vanish wherever"), "{text}");
+            assert!(text.contains(note), "{text}");
+        }
+        let text = fault(&wheels(&format!("({factor})*dot(x)"), ""));
+        assert!(
+            text.contains("constraint `second` vanishes wherever the holonomic constraints hold"),
+            "{text}"
+        );
+    }
+    let divided = wheels("dot(z) - dot(x)/(cos(a) - cos(b))", "");
+    assert!(fault(&divided).contains("`cos(a) - cos(b)` vanishes wherever the `holonomic` constraints hold"));
+}
+
 /// Where one branch of the positions makes rows dependent and another does not, none of them is left out.
 #[test]
 fn rows_that_follow_on_one_branch_only_stay() {

@@ -167,7 +167,7 @@ impl Derivation {
                 system.accelerations.iter().copied().zip(solution.accelerations.iter().copied()),
             );
             let power = solved.of(&mut bench.graph, power);
-            bench.verdict_on_manifold(power) == Verdict::Zero
+            bench.is_seen_to_vanish(power)
         });
         let power = power.unwrap_or(bench.graph.zero());
         let outputs = outputs(bench, &system, &mut frame, &solution.accelerations, &reactions);

@@ -56,6 +56,10 @@ impl ZeroTest {
         let (mut kept, others): (Vec<usize>, Vec<usize>) = all.into_iter().partition(|i| stays[*i]);
         let mut found = Vec::new();
         for row in others {
+            // A row of which nothing is left there says nothing of others.
+            if self.is_dependent(g, &coefficients(&[row])) {
+                continue;
+            }
             let with = [&kept[..], &[row]].concat();
             if !self.is_dependent(g, &coefficients(&with)) {
                 kept.push(row);

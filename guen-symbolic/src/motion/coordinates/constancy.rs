@@ -3,12 +3,11 @@
 use crate::algebra::{ExprId, Flow, Role, Roles};
 use crate::motion::{Frame, Mechanics};
 use crate::workbench::Workbench;
-use crate::zero::Verdict;
 
 /// Whether a function is constant on the holonomic constraints: `X_j f = 0` there for all `j` whose displacement stays on them.
 pub(in crate::motion) fn rests(bench: &mut Workbench, system: &Mechanics, frame: &Frame, e: ExprId) -> bool {
     // Where it vanishes on all of them it rests, and its derivatives may be large.
-    if vanishes(bench, e) {
+    if bench.is_seen_to_vanish(e) {
         return true;
     }
     let forms = &system.forms;
@@ -22,17 +21,8 @@ pub(in crate::motion) fn rests(bench: &mut Workbench, system: &Mechanics, frame:
             terms.push(bench.graph.mul(*xi, slope));
         }
         let rate = bench.graph.sum(terms);
-        vanishes(bench, rate)
+        bench.is_seen_to_vanish(rate)
     })
-}
-
-/// Whether a function vanishes on the holonomic constraints, as far as is proved there or, where nothing can be, as points show.
-fn vanishes(bench: &mut Workbench, e: ExprId) -> bool {
-    match bench.verdict_on_manifold(e) {
-        Verdict::Zero => true,
-        Verdict::Nonzero => false,
-        Verdict::Unknown => bench.zero.observed_rank(&mut bench.graph, &[vec![e]]) == Some(0),
-    }
 }
 
 /// Whether all derivatives by the variables vanish where the holonomic constraints hold.
@@ -50,7 +40,7 @@ pub(in crate::motion) fn is_constant(bench: &mut Workbench, e: ExprId, variables
             return true;
         }
         let slope = Flow::partial(&bench.graph, *x).of(&mut bench.graph, e);
-        bench.graph.is_zero(slope) || vanishes(bench, slope)
+        bench.graph.is_zero(slope) || bench.is_seen_to_vanish(slope)
     })
 }
 
