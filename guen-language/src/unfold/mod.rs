@@ -99,8 +99,8 @@ struct Unfolder<'f> {
     /// Arguments of the function that is written out: they hide what has their name.
     hidden: BTreeSet<String>,
     arrays: Arrays,
-    /// The entries that may still be written out.
-    budget: usize,
+    /// The entries that may still be written out; none once there were too many.
+    budget: Option<usize>,
     /// Whether the entries of arrays are known: not after a fault before.
     knows_entries: bool,
     /// Whether loop variables may stand for real numbers here.
@@ -122,7 +122,7 @@ impl<'f> Unfolder<'f> {
             variables: Vec::new(),
             hidden: BTreeSet::new(),
             arrays: Arrays::default(),
-            budget: MAX_UNFOLDED,
+            budget: Some(MAX_UNFOLDED),
             knows_entries: true,
             may_use_variables: false,
         }
@@ -175,6 +175,10 @@ impl<'f> Unfolder<'f> {
     /// Runs through a range with a loop variable.
     fn repeat(&mut self, variable: &Name, range: &Range, body: &mut dyn FnMut(&mut Self)) {
         let Some((start, end)) = self.bounds(range) else { return };
+        let rounds = usize::try_from(end.saturating_sub(start)).unwrap_or(0);
+        if !self.affords(rounds, range.span) {
+            return;
+        }
         for value in start..end {
             if !self.spend(1, range.span) {
                 return;
@@ -185,23 +189,28 @@ impl<'f> Unfolder<'f> {
         }
     }
 
-    /// Takes entries from the budget; `false` once it is spent.
+    /// Takes entries from the budget; `false` if they are not taken, which is reported.
     fn spend(&mut self, entries: usize, place: Span) -> bool {
-        match self.budget.checked_sub(entries) {
-            Some(left) => {
-                self.budget = left;
-                true
-            }
-            None => {
-                // Without an entry left nothing else is written out, and nothing else is reported.
-                if self.budget > 0 || entries > 0 {
-                    let text = format!("more than {MAX_UNFOLDED} entries, with all loops written out");
-                    self.faults.report(Fault::new(place, text));
-                }
-                self.budget = 0;
-                false
-            }
+        let affords = self.affords(entries, place);
+        if affords {
+            self.budget = self.budget.map(|budget| budget - entries);
         }
+        affords
+    }
+
+    /// Whether so many entries may still be written out. An array or a loop that alone is too long is left out, and the rest goes
+    /// on; where many entries came together, nothing else is written out, and nothing else is reported.
+    fn affords(&mut self, entries: usize, place: Span) -> bool {
+        let Some(budget) = self.budget else { return false };
+        if entries <= budget {
+            return true;
+        }
+        let text = format!("more than {MAX_UNFOLDED} entries, with all loops written out");
+        self.faults.report(Fault::new(place, text));
+        if entries <= MAX_UNFOLDED {
+            self.budget = None;
+        }
+        false
     }
 
     fn check_variable(&mut self, variable: &Name) {

@@ -3,6 +3,7 @@
 mod absolute_values;
 mod angles;
 mod cancelling;
+mod blamed;
 mod carried;
 mod classes;
 mod common;

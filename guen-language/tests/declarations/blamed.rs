@@ -1,0 +1,33 @@
+//! Errors name what is guilty, and nothing else.
+
+/// The errors about a declaration: first lines, notes and helps.
+fn messages(text: &str) -> Vec<String> {
+    let (declaration, report) = guen_language::parse::parse(text.parse().unwrap());
+    let report = match declaration {
+        Some(declaration) if !report.is_empty() => {
+            guen_language::with_further_faults(&text.parse().unwrap(), &declaration, report)
+        }
+        Some(declaration) => {
+            guen_language::diagnostics::collect(|faults| {
+                guen_language::derive::derive(guen_language::model::resolve(&declaration, faults)?, faults)
+                    .map(|_| ())
+            })
+            .1
+        }
+        None => report,
+    };
+    report.faults().iter().map(|fault| fault.message().to_owned()).collect()
+}
+
+#[test]
+fn an_array_that_is_too_long_is_blamed_alone() {
+    for text in [
+        "system S { constants { a[1], b[2000000] } coordinates { x[1] } kinetic_energy = a[0]*dot(x[0])^2; }",
+        "system S { count n = 2000000; coordinates { x, q[n] } kinetic_energy = dot(x)^2; }",
+        "system S { coordinates { x } for i in 0..2000000 { let p[i] = x; } let q[0] = x; kinetic_energy = dot(q[0])^2; }",
+    ] {
+        let messages = messages(text);
+        assert_eq!(messages.len(), 1, "{messages:#?}");
+        assert!(messages[0].starts_with("more than 1000000 entries"), "{messages:#?}");
+    }
+}
