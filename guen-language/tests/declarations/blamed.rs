@@ -31,3 +31,18 @@ fn an_array_that_is_too_long_is_blamed_alone() {
         assert!(messages[0].starts_with("more than 1000000 entries"), "{messages:#?}");
     }
 }
+
+#[test]
+fn reserved_names_of_instances_are_refused() {
+    let component = "component C() { coordinates { z } kinetic_energy = dot(z)^2; }";
+    let uses = "use C as t {} use C as norm {} use C as pi[0] {} use C as __guen {}";
+    let messages = messages(&format!(
+        "system S {{ {component} {uses} coordinates {{ x }} kinetic_energy = dot(x)^2; outputs {{ o = t.z; }} }}"
+    ));
+    let told =
+        ["`t` is reserved", "`norm` is the name of a function", "`pi` is reserved", "`__guen` is reserved"];
+    assert_eq!(messages.len(), told.len(), "{messages:#?}");
+    for (message, start) in messages.iter().zip(told) {
+        assert!(message.starts_with(&format!("{start} and cannot name an instance")), "{message}");
+    }
+}

@@ -1,7 +1,7 @@
 //! Names of instances and components that the generated module needs for itself.
 
 use crate::diagnostics::{Fault, Faults};
-use crate::names::module_name;
+use crate::names::{is_function, is_reserved, module_name};
 use crate::syntax::{Declaration, Item, Name};
 
 /// Reports instances and components whose modules and structs would have the names of others.
@@ -22,7 +22,11 @@ pub(super) fn check(declaration: &Declaration, faults: &mut Faults) {
                 let has_module = |scene: &Name| module_name(&scene.ident, "scene") == text;
                 let scene = scenes.iter().find(|scene| scene.text == text || has_module(scene));
                 let fault = || Fault::new(name.span(), format!("an instance cannot be called `{text}`"));
-                if let Some(scene) = scene {
+                if is_reserved(&text) {
+                    let what = if is_function(&text) { "the name of a function" } else { "reserved" };
+                    let text = format!("`{text}` is {what} and cannot name an instance");
+                    faults.report(Fault::new(name.span(), text).help("choose another name"));
+                } else if let Some(scene) = scene {
                     let item = if has_module(scene) { "module" } else { "type" };
                     let note = format!("scene `{scene}` has a {item} of that name, declared");
                     let fault = fault().note_place(&note, scene.span());

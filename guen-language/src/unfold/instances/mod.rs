@@ -16,7 +16,7 @@ use std::rc::Rc;
 
 use crate::diagnostics::{Fault, Faults, collect};
 use crate::limits::MAX_INSTANCES;
-use crate::names::{nearest, quoted};
+use crate::names::{is_reserved, nearest, quoted};
 use crate::syntax::{Component, Declaration, Imported, Instance, Item, Name, Use};
 use crate::unfold::component_names::OwnNames;
 use crate::unfold::{check_names, component_counts};
@@ -158,6 +158,11 @@ impl Stage<'_> {
                 }
                 Item::Use(instance) => {
                     if scope.is_declared_twice(&instance.name, self.faults) {
+                        continue;
+                    }
+                    if is_reserved(&instance.name.root().to_string()) {
+                        // Reported with the names that the system, or the component, declares.
+                        scope.excuse(&instance.name);
                         continue;
                     }
                     if scope.is_of_another_component(&instance, self.faults) {
