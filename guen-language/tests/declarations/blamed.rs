@@ -46,3 +46,23 @@ fn reserved_names_of_instances_are_refused() {
         assert!(message.starts_with(&format!("{start} and cannot name an instance")), "{message}");
     }
 }
+
+#[test]
+fn no_help_names_what_is_private() {
+    let component = "component C(p: vector) {
+        functions { law(s); } coordinates { z } fn f(x) = x; let _h = z; let open = f(z);
+        particles { 1 at p + vec(0, open); } forces { law(_h) along dot(z); }
+    }";
+    let told = guen_language::expand(
+        format!(
+            "system S {{ coordinates {{ x }} kinetic_energy = dot(x)^2; {component} use C as c {{ p: vec(x, 0) }}
+                outputs {{ a = c.nothing; b = c; d = _h; e = c._hh; }} }}"
+        )
+        .parse()
+        .unwrap(),
+    )
+    .to_string();
+    assert!(told.contains("it has `open`, `z`"), "{told}");
+    assert!(told.contains("as `c.open`"), "{told}");
+    assert!(!told.contains("`c._h`") && !told.contains("did you mean `_h`"), "{told}");
+}

@@ -22,6 +22,8 @@ pub(super) struct Scope {
     instances: BTreeMap<String, InstanceScope>,
     /// The declared names of instances, by their paths.
     members: BTreeMap<String, Name>,
+    /// Those among them that are read inside of their component only, which no help may name.
+    private: BTreeSet<String>,
     /// The component of each array of instances, with the place of the first.
     arrays: BTreeMap<String, (String, proc_macro2::Span)>,
     /// Instances of which nothing is known, after a fault.
@@ -49,6 +51,7 @@ impl Scope {
             announced: announced.collect(),
             instances: BTreeMap::new(),
             members: BTreeMap::new(),
+            private: BTreeSet::new(),
             arrays: BTreeMap::new(),
             excused: BTreeSet::new(),
         }
@@ -104,6 +107,18 @@ impl Scope {
         }
         self.instances.insert(name.text.clone(), InstanceScope { path, component: Rc::clone(component) });
         self.members.extend(members.iter().map(|name| (name.text.clone(), name.clone())));
+        let is_function = |item: &&Item| matches!(item, Item::Function(_) | Item::Functions(_));
+        let functions = unfolded.items.iter().filter(is_function).flat_map(Item::declared);
+        let functions: BTreeSet<&str> = functions.map(|name| name.text.as_str()).collect();
+        let is_private =
+            |own: &str| own.split('.').any(|step| step.starts_with('_')) || functions.contains(own);
+        let private = unfolded.members.values().zip(members).filter(|(own, _)| is_private(&own.text));
+        self.private.extend(private.map(|(_, name)| name.text.clone()));
+    }
+
+    /// The names of instances that may be read here.
+    fn readable(&self) -> impl Iterator<Item = &str> {
+        self.members.keys().map(String::as_str).filter(|known| !self.private.contains(*known))
     }
 
     /// Makes paths of the names of instances in the expressions of an item.
@@ -230,7 +245,7 @@ impl Scope {
             return Some(derived);
         }
         let prefix = format!("{instance}.");
-        let known: Vec<&str> = self.members.keys().filter_map(|known| known.strip_prefix(&prefix)).collect();
+        let known: Vec<&str> = self.readable().filter_map(|known| known.strip_prefix(&prefix)).collect();
         let fault = Fault::new(name.span(), format!("`{instance}`, a `{}`, has no `{name}`", component.name));
         faults.report(match nearest(&name.text, known.iter().copied()) {
             Some(near) => fault.help(format!("did you mean `{near}`?")),
@@ -263,7 +278,7 @@ impl Scope {
         }
         if let Some(scope) = self.instances.get(&name.text) {
             let text = format!("`{name}` is an instance of `{}`, and no value", scope.component.name);
-            let member = self.members.keys().find(|known| known.starts_with(&format!("{name}.")));
+            let member = self.readable().find(|known| known.starts_with(&format!("{name}.")));
             let fault = Fault::new(name.span(), text);
             faults.report(match member {
                 Some(member) => fault.help(format!("write one of its names, as `{member}`")),
@@ -278,8 +293,7 @@ impl Scope {
             return false;
         }
         let suffix = format!(".{}", name.text);
-        let members: Vec<&str> =
-            self.members.keys().map(String::as_str).filter(|known| known.ends_with(&suffix)).collect();
+        let members: Vec<&str> = self.readable().filter(|known| known.ends_with(&suffix)).collect();
         let Some(first) = members.first() else { return false };
         let fault = Fault::new(name.span(), format!("`{name}` is private to the component that declares it"));
         let fault = fault.note("outside of the component it is read through the name of an instance");
