@@ -69,6 +69,8 @@ pub(crate) struct Damaged {
     lost_components: BTreeSet<String>,
     /// Whether a component has lost its name, so that any unknown one may be this component.
     has_unnamed_component: bool,
+    /// The names of instances that are missing, because of a fault in their `use` or in their component.
+    lost_instances: BTreeSet<String>,
 }
 
 /// The statements of a declaration in which no fault was found.
@@ -132,6 +134,7 @@ impl Damaged {
             has_lost_count: false,
             lost_components: BTreeSet::new(),
             has_unnamed_component: false,
+            lost_instances: BTreeSet::new(),
             damage: if faults.is_empty() { Damage::None } else { Damage::Leaves },
         };
         for fault in faults {
@@ -143,8 +146,10 @@ impl Damaged {
                 damaged.is_damaged_elsewhere = true;
             }
             damaged.add(tokens, &place, 0);
+            damaged.add_uses(tokens, &place);
         }
         damaged.add_lost(tokens);
+        damaged.add_lost_instances(tokens, items);
         let declared = items.iter().flat_map(|item| item.declared());
         for name in declared {
             let text = array_of(&name.text);
@@ -275,6 +280,64 @@ impl Damaged {
         }
     }
 
+    /// Adds the instances whose `use` holds a place.
+    fn add_uses(&mut self, tokens: &[TokenTree], at: &FaultPlace) {
+        each_use(tokens, (usize::MAX, 0), &mut |statement, _, name| {
+            let holds = match at {
+                FaultPlace::Position(at) => {
+                    statement.tokens.first().is_some_and(|first| start(first) <= *at) && *at < statement.end
+                }
+                FaultPlace::Token(_) => at.is_among(statement.tokens),
+            };
+            if holds {
+                self.lost_instances.insert(name.to_owned());
+            }
+        });
+    }
+
+    /// Adds the statements that speak of instances which are missing from the items.
+    fn add_lost_instances(&mut self, tokens: &[TokenTree], items: &[Item]) {
+        let components = std::mem::take(&mut self.lost_components);
+        each_use(tokens, (usize::MAX, 0), &mut |_, component, name| {
+            if components.contains(component) {
+                self.lost_instances.insert(name.to_owned());
+            }
+        });
+        self.lost_components = components;
+        for name in items.iter().flat_map(|item| item.declared()) {
+            for step in name.text.split('.') {
+                self.lost_instances.remove(array_of(step));
+            }
+        }
+        if !self.lost_instances.is_empty() {
+            self.add_mentions(tokens, (usize::MAX, 0));
+        }
+    }
+
+    /// Adds the smallest statements that name an instance which is missing.
+    fn add_mentions(&mut self, tokens: &[TokenTree], end: Position) {
+        for statement in statements(tokens, end) {
+            let mut is_inside = false;
+            for token in statement.tokens {
+                if let TokenTree::Group(group) = token
+                    && group.delimiter() == Delimiter::Brace
+                {
+                    let within: Vec<TokenTree> = group.stream().into_iter().collect();
+                    if mentions(&within, &self.lost_instances) {
+                        is_inside = true;
+                        self.add_mentions(&within, position_of(group.span_close()));
+                    }
+                }
+            }
+            if let Some(first) = statement.tokens.first()
+                && !is_inside
+                && mentions(statement.tokens, &self.lost_instances)
+            {
+                self.statements.push((start(first), statement.end));
+            }
+        }
+    }
+
     /// Whether a component that the items lack may be one that is declared here with a fault. Then it is no macro.
     pub(crate) fn may_declare(&self, path: &ComponentPath) -> bool {
         path.is_name() && (self.has_unnamed_component || self.lost_components.contains(&path.text))
@@ -294,6 +357,7 @@ impl Damaged {
             || is_at_name()
             || is_missing() && has_lost()
             || self.has_unnamed_component && message.starts_with("unknown component")
+            || !self.lost_instances.is_empty() && message.starts_with("there are no contacts")
     }
 }
 
@@ -325,6 +389,48 @@ fn without_crate_path(tokens: &[TokenTree]) -> &[TokenTree] {
         }
         _ => tokens,
     }
+}
+
+/// Calls a function for every `use` with the component's name and that of the instance.
+fn each_use(tokens: &[TokenTree], end: Position, visit: &mut dyn FnMut(&Statement<'_>, &str, &str)) {
+    for statement in statements(tokens, end) {
+        if head(statement.tokens).as_deref() == Some("use") {
+            for words in statement.tokens.windows(3) {
+                if let [TokenTree::Ident(component), TokenTree::Ident(word), TokenTree::Ident(name)] = words
+                    && word == "as"
+                {
+                    visit(&statement, &component.to_string(), &name.to_string());
+                }
+            }
+            continue;
+        }
+        for token in statement.tokens {
+            if let TokenTree::Group(group) = token
+                && group.delimiter() == Delimiter::Brace
+            {
+                let within: Vec<TokenTree> = group.stream().into_iter().collect();
+                each_use(&within, position_of(group.span_close()), visit);
+            }
+        }
+    }
+}
+
+/// Whether some tokens name one of some instances: in front of a point, behind one, or as what a scene tracks.
+fn mentions(tokens: &[TokenTree], instances: &BTreeSet<String>) -> bool {
+    let is_dot =
+        |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Punct(mark)) if mark.as_char() == '.');
+    let is_index = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Bracket);
+    let is_track = head(tokens).is_some_and(|word| word == "track");
+    tokens.iter().enumerate().any(|(place, token)| match token {
+        TokenTree::Ident(name) if instances.contains(&name.to_string()) => {
+            let behind = place + 1 + usize::from(is_index(tokens.get(place + 1)));
+            is_track || is_dot(tokens.get(behind)) || place > 0 && is_dot(tokens.get(place - 1))
+        }
+        TokenTree::Group(group) => {
+            mentions(&group.stream().into_iter().collect::<Vec<TokenTree>>(), instances)
+        }
+        _ => false,
+    })
 }
 
 /// The word behind another.

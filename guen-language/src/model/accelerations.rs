@@ -61,6 +61,9 @@ impl Evaluator<'_> {
                 _ => fault,
             });
         }
+        if let [Expression { kind: ExpressionKind::Missing, .. }] = arguments {
+            return Err(self.faults.reported_before());
+        }
         let [Expression { kind: ExpressionKind::Name(name), .. }] = arguments else {
             return self.fail(
                 Fault::new(list, "`reaction` takes the name of a constraint")

@@ -83,6 +83,9 @@ impl Evaluator<'_> {
         arguments: &'e [Expression],
         list: Span,
     ) -> Evaluated<(&'e Name, ContactValue)> {
+        if let [Expression { kind: ExpressionKind::Missing, .. }] = arguments {
+            return Err(self.faults.reported_before());
+        }
         let [Expression { kind: ExpressionKind::Name(name), .. }] = arguments else {
             let fault = Fault::new(list, format!("`{word}` takes the name of a contact"));
             return self.fail(fault.help(format!("write `{word}(name)` with a name from `contacts`")));

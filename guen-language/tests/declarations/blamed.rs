@@ -66,3 +66,37 @@ fn no_help_names_what_is_private() {
     assert!(told.contains("as `c.open`"), "{told}");
     assert!(!told.contains("`c._h`") && !told.contains("did you mean `_h`"), "{told}");
 }
+
+#[test]
+fn an_instance_that_is_missing_is_told_once() {
+    let component = |count| {
+        format!(
+            "component P(n: count) {{
+                constants {{ k[{count}] = 1 }} coordinates {{ s[n] }}
+                kinetic_energy = sum(i in 0..n: dot(s[i])^2);
+                contacts {{ for i in 0..n {{ stop[i]: gap = s[i]; }} }} outputs {{ o = s[0]; }}
+            }}"
+        )
+    };
+    let rest = |n| {
+        format!(
+            "for i in 0..2 {{ use P as c[i] {{ n: {n} }} }}
+            modes {{ for i in 0..2 {{ c[i].stop: open; }} never c[0].stop[0].closed; }}
+            outputs {{ a = gap(c[1].stop[0]); b = c[0].o; d = reaction(c[0].stop[0]); e = unknown; }}
+            scene T {{ track c[0].s[0]; fix c[0].k = 3; provide c[0].o; modes {{ c[0].stop[0]: closed; }} }}
+            scene U {{ track c; provide reactions(c[0].stop), a; }}"
+        )
+    };
+    for (component, rest, fault) in [
+        (component("1"), rest("-1"), "count `n` is -1, and a count is a whole number from 0 on"),
+        (component("1"), rest("x"), "`n` of `P` is a count, and this is no whole number"),
+        (component("n"), rest("2"), "constants of `P` depend on a count that its uses give"),
+    ] {
+        let messages = messages(&format!(
+            "system S {{ coordinates {{ x }} kinetic_energy = dot(x)^2; {component} {rest} }}"
+        ));
+        assert_eq!(messages.len(), 2, "{messages:#?}");
+        assert!(messages[0].starts_with(fault), "{messages:#?}");
+        assert_eq!(messages[1], "unknown name `unknown` in system `S`");
+    }
+}

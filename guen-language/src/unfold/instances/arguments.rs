@@ -80,8 +80,7 @@ pub(super) fn counts<'c>(
     component: &'c Component,
     faults: &mut Faults,
 ) -> Option<Vec<(&'c Name, i64)>> {
-    let before = faults.count();
-    let mut counts = Vec::new();
+    let (mut counts, mut are_sound) = (Vec::new(), true);
     for argument in component.counts() {
         let name = &argument.name;
         let Some(given) = instance.arguments.iter().find(|given| given.name.text == name.text) else {
@@ -93,11 +92,13 @@ pub(super) fn counts<'c>(
         match whole(value) {
             Some(number) if number >= 0 => counts.push((name, number)),
             Some(number) => {
+                are_sound = false;
                 let text = format!("count `{name}` is {number}, and a count is a whole number from 0 on");
                 faults.report(Fault::new(value.extent(), text));
             }
             None if value.has_missing() => return None,
             None => {
+                are_sound = false;
                 let text =
                     format!("`{name}` of `{}` is a count, and this is no whole number", component.name);
                 let fault = Fault::new(value.extent(), text);
@@ -107,7 +108,8 @@ pub(super) fn counts<'c>(
             }
         }
     }
-    (faults.count() == before).then_some(counts)
+    // The number of faults does not tell: in a loop the same one is reported once.
+    are_sound.then_some(counts)
 }
 
 /// The value of an expression of whole numbers, as indices are computed: a quotient is cut off.
