@@ -67,6 +67,11 @@ impl Evaluator<'_> {
 
     /// A scene becomes a struct and a module in the module of the system.
     fn scene_name(&mut self, name: &Name, declaration: &Declaration, earlier: &[&Scene]) {
+        if let Some(first) = earlier.iter().find(|other| other.name.text == name.text) {
+            let fault = Fault::new(name.span(), format!("`{name}` is declared twice"));
+            self.faults.report(fault.note_place("first declared as a scene", first.name.span()));
+            return;
+        }
         let module = module_name(&name.ident, "scene");
         let taken = if names::is_generated_type_or_constant(&name.text)
             || names::is_generated_item(&module.to_string())
@@ -81,9 +86,7 @@ impl Evaluator<'_> {
         } else {
             earlier
                 .iter()
-                .find(|other| {
-                    other.name.text == name.text || module_name(&other.name.ident, "scene") == module
-                })
+                .find(|other| module_name(&other.name.ident, "scene") == module)
                 .map(|other| format!("`{}` and `{name}` would share the module `{module}`", other.name))
         };
         if let Some(why) = taken {

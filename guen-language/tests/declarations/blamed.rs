@@ -100,3 +100,22 @@ fn an_instance_that_is_missing_is_told_once() {
         assert_eq!(messages[1], "unknown name `unknown` in system `S`");
     }
 }
+
+#[test]
+fn a_second_scene_of_one_name_is_told_whatever_the_first_has() {
+    let messages = messages(
+        "system S {
+            coordinates { x, y } kinetic_energy = dot(x)^2 + dot(y)^2;
+            scene Low { track q; } scene Low { track x; } scene CASE { track r; } scene Case { track y; }
+        }",
+    );
+    assert_eq!(
+        messages,
+        [
+            "unknown name `q` in a scene",
+            "`Low` is declared twice",
+            "unknown name `r` in a scene",
+            "a scene cannot be called `Case` here"
+        ]
+    );
+}

@@ -62,7 +62,8 @@ impl<'a> Resolver<'a, '_> {
         self.eval.report_assumed(None);
         *is_core_sound &= self.eval.faults.count() == before;
         let mut scenes: Vec<SceneEntry<'a>> = Vec::new();
-        for scene in self.written_scenes {
+        let written = self.written_scenes;
+        for (place, &scene) in written.iter().enumerate() {
             let mut of_scene = SceneModes::Without;
             if has_contacts && self.declaration.is_outline {
                 // A scene that has modes there is one of a smooth system.
@@ -82,8 +83,7 @@ impl<'a> Resolver<'a, '_> {
                 self.eval.faults.report(fault.help("declare them: `contacts { name: gap = e; }`"));
             }
             let is_in_mode = matches!(of_scene, SceneModes::One(_)) || self.declaration.in_mode.is_some();
-            let earlier: Vec<&Scene> = scenes.iter().map(|entry| entry.scene).collect();
-            let entry = self.eval.scene(scene, self.declaration, &earlier, is_in_mode);
+            let entry = self.eval.scene(scene, self.declaration, &written[..place], is_in_mode);
             scenes.extend(entry.map(|entry| SceneEntry { modes: of_scene, ..entry }));
         }
         let before = self.eval.faults.count();
