@@ -119,3 +119,46 @@ fn a_second_scene_of_one_name_is_told_whatever_the_first_has() {
         ]
     );
 }
+
+#[test]
+fn a_name_of_an_array_of_instances_stands_for_all() {
+    let component = "component Leg(n: count) {
+        constants { k = 1 } coordinates { s[n] } parameters { for i in 0..n { v[i] = dot(s[i]); } }
+        kinetic_energy = sum(i in 0..n: v[i]^2);
+        contacts { stop: gap = s[0]; for i in 0..n { grips[i]: grip = v[i], limit = 1; } } outputs { o = k*s[0]; }
+    }
+    component Pair() { for i in 0..2 { use Leg as leg[i] { n: 2 } } }";
+    let uses = "for i in 0..2 { use Pair as pair[i] {} }";
+    let text = |modes: &str, scene: &str| {
+        format!(
+            "system S {{ coordinates {{ x }} kinetic_energy = dot(x)^2; {component} {uses} modes {{ {modes} }}
+                scene Some {{ {scene} }} }}"
+        )
+    };
+    let short = text(
+        "pair.leg.stop: open; pair[0].leg.grips: slip+; pair[1].leg[0].grips: slip+; pair.leg[1].grips[0]: slip+; pair[1].leg[1].grips[1]: slip+;",
+        "track pair[1].leg.v; fix pair.leg.k = 2; provide pair.leg[0].o; modes { pair.leg[0].grips: slip+; }",
+    );
+    // The second statement about one contact is a fault.
+    assert_eq!(messages(&short), ["the states of `pair[0].leg[1].grips[0]` are given twice"]);
+    let short = short.replace("pair.leg[1].grips[0]", "pair[1].leg[1].grips[0]");
+    let legs = ["pair[0].leg[0]", "pair[0].leg[1]", "pair[1].leg[0]", "pair[1].leg[1]"];
+    let modes: String = legs
+        .iter()
+        .map(|leg| format!("{leg}.stop: open; {leg}.grips[0]: slip+; {leg}.grips[1]: slip+;"))
+        .collect();
+    let fixes: String = legs.iter().map(|leg| format!("fix {leg}.k = 2;")).collect();
+    let long = text(
+        &modes,
+        &format!(
+            "track pair[1].leg[0].v[0], pair[1].leg[0].v[1], pair[1].leg[1].v[0], pair[1].leg[1].v[1]; {fixes}
+            provide pair[0].leg[0].o, pair[1].leg[0].o;"
+        ),
+    );
+    assert_eq!(messages(&short), Vec::<String>::new());
+    let expanded = |text: &str| {
+        let text = guen_language::expand(text.parse().unwrap()).to_string();
+        text.split("REPORT").skip(1).map(str::to_owned).collect::<String>().len()
+    };
+    assert_eq!(expanded(&short), expanded(&long));
+}

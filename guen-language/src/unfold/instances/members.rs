@@ -368,8 +368,8 @@ impl Scope {
     /// The names that a name after `track` stands for: of an instance, and of an array of instances, its coordinates, parameters and
     /// states.
     fn tracked(&self, name: &Name, moving: &[Name]) -> Vec<Name> {
-        let is_meant = |instance: &str| instance == name.text || array_of(instance) == name.text;
-        let meant: Vec<&String> = self.instances.keys().filter(|instance| is_meant(instance)).collect();
+        let meant: Vec<&String> =
+            self.instances.keys().filter(|instance| stands_for(&name.text, instance)).collect();
         if meant.is_empty() {
             return self.all(name);
         }
@@ -381,16 +381,13 @@ impl Scope {
         if inside.is_empty() { vec![name.clone()] } else { inside }
     }
 
-    /// The names that a name in a scene stands for: all entries of an array of an instance, or itself.
+    /// The names that a name in a scene or in `modes` stands for: itself, or what is left open by arrays without an index, be they of
+    /// instances or of their names.
     fn all(&self, name: &Name) -> Vec<Name> {
         if let Some(known) = self.members.get(&name.text) {
             return vec![placed(known, name)];
         }
-        let prefix = format!("{name}[");
-        let entries = self
-            .members
-            .iter()
-            .filter(|(text, _)| text.strip_prefix(&prefix).is_some_and(|rest| !rest.contains('.')));
+        let entries = self.members.iter().filter(|(text, _)| stands_for(&name.text, text));
         let entries: Vec<Name> = entries.map(|(_, known)| placed(known, name)).collect();
         if !entries.is_empty() {
             return entries;
@@ -411,6 +408,13 @@ impl Scope {
         let known = Name::at(path);
         if known.text == name.text { vec![placed(&known, name)] } else { vec![name.clone()] }
     }
+}
+
+/// Whether a name, in which arrays may stand without an index, stands for a known one: `foot.knee` for `foot[0].knee`.
+fn stands_for(name: &str, known: &str) -> bool {
+    let (steps, known_steps) = (name.split('.'), known.split('.'));
+    steps.clone().count() == known_steps.clone().count()
+        && steps.zip(known_steps).all(|(step, known)| step == known || step == array_of(known))
 }
 
 /// A known name at the place where it is used.
