@@ -521,7 +521,7 @@ impl Expression {
                 write!(text, "{self}")
             }
             ExpressionKind::Call { function, arguments, .. } => {
-                write!(text, "{}", function.ident)?;
+                write!(text, "{}", Written(function))?;
                 list(text, arguments)
             }
             ExpressionKind::Field { base, name } => {

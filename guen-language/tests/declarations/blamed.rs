@@ -162,3 +162,25 @@ fn a_name_of_an_array_of_instances_stands_for_all() {
     };
     assert_eq!(expanded(&short), expanded(&long));
 }
+
+#[test]
+fn functions_of_instances_are_called_as_they_are_written() {
+    let component = "component Motor(angle: scalar) {
+        functions { drag(w); } fn half(x) = x/2;
+        forces { half(drag(dot(angle))) + angle along dot(angle); } outputs { o = angle + sin(half(dot(angle)*drag(angle))); }
+    }";
+    let told = guen_language::expand(
+        format!(
+            "system S {{ constants {{ m: kg > 0 }} coordinates {{ x: m }} {component} kinetic_energy = m/2*dot(x)^2;
+                for i in 0..2 {{ use Motor as drive[i] {{ angle: x }} }} }}"
+        )
+        .parse()
+        .unwrap(),
+    )
+    .to_string();
+    assert!(
+        told.contains("`drive[0].half(drive[0].drag(dot(drive[0].angle))) + drive[0].angle` is in m"),
+        "{told}"
+    );
+    assert!(!told.contains("`drive_0_"), "{told}");
+}
