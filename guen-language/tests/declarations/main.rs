@@ -2,8 +2,8 @@
 
 mod absolute_values;
 mod angles;
-mod cancelling;
 mod blamed;
+mod cancelling;
 mod carried;
 mod classes;
 mod common;

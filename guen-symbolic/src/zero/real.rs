@@ -5,7 +5,9 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use f256::f256;
 
 use super::field::mix;
-use crate::algebra::{ExprId, FastMap, Function, Graph, Multivariate, Node, Rational, Role, SignBound, SymbolId};
+use crate::algebra::{
+    ExprId, FastMap, Function, Graph, Multivariate, Node, Rational, Role, SignBound, SymbolId,
+};
 
 /// The operations that evaluation needs of a kind of real number.
 pub trait Real:
