@@ -198,7 +198,10 @@ impl ZeroTest {
     /// with the same constants. Roots are what they are on the manifold, and such points do not lie there.
     pub(crate) fn has_several_values(&mut self, g: &Graph, e: ExprId) -> bool {
         self.table.scan(g);
-        if self.manifold.is_some() && self.table.flags[e.index()] & PIECEWISE == 0 {
+        let flags = self.table.flags[e.index()];
+        // Anything else is meromorphic, and one constant everywhere.
+        let may_jump = if self.manifold.is_some() { PIECEWISE } else { PIECEWISE | SIGN | ROOT | ATOM };
+        if flags & may_jump == 0 {
             return false;
         }
         let mut values = (0..REAL_POINTS as u64).map(|number| RealPoint::with_first_constants(g, e, number));
