@@ -252,3 +252,24 @@ fn a_block_that_sticks_is_told_of() {
     let error = belt.simulate(&start, 0.0..6.0).unwrap_err().to_string();
     assert!(error.contains("`v - belt` = 0") && error.contains("`contacts`"), "{error}");
 }
+
+mechanical_system! {
+    /// A body that a force pushes for a hundredth of a second, after fifty without one.
+    system PushedOnce {
+        constants { m = 1, from = 50, w = 1/100 }
+        coordinates { x }
+        parameters { v = dot(x); }
+        kinetic_energy = m/2*v^2;
+        forces { select((t - from)*(from + w - t) >= 0, 1, 0) along v; }
+    }
+}
+
+/// The sign of a polynomial of the time is uncertain around its zeros, and no motion slides there.
+#[test]
+fn a_switch_of_time_alone_does_not_slide() {
+    let body = PushedOnce::default().prepare().unwrap();
+    for v in [0.0, 1.0] {
+        let motion = body.simulate(&pushed_once::State { x: 0.0, v }, 0.0..100.0).unwrap();
+        assert!((motion.end().v - v - 0.01).abs() < 1e-6, "{:?}", motion.end());
+    }
+}

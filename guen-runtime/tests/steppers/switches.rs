@@ -283,3 +283,120 @@ fn steps_made_again_at_switches_are_rejected_ones() {
         assert!(work.rejected > 20, "{work:?}");
     }
 }
+/// A ball on a floor of springs.
+#[derive(Clone, Copy)]
+struct Floor;
+
+impl System<f64, 2> for Floor {
+    fn rhs(&self, _t: f64, &[z, v]: &[f64; 2]) -> [f64; 2] {
+        [v, -9.81 + 1000.0 * (-z).max(0.0)]
+    }
+
+    fn switches(&self, _t: f64, &[z, _]: &[f64; 2], values: &mut [f64]) -> usize {
+        values[0] = z;
+        1
+    }
+}
+/// Every step moves the time, also the last ones before a switch.
+#[test]
+fn no_step_of_a_search_stands_still() {
+    for (tolerance, end) in [(1e-9, 20.0), (1e-6, 20.0), (1e-12, -20.0), (1e-4, -20.0)] {
+        let mut times = vec![0.0];
+        let mut observe = |t: f64, _: &[f64; 2]| {
+            times.push(t);
+            core::ops::ControlFlow::Continue(())
+        };
+        let run = Integration::new(&Floor, 0.0, &[0.5, 0.0]).observe(&mut observe);
+        let done = run.run(&Dop853::new(tolerance, tolerance), end).unwrap();
+        assert!(done.statistics.switches > 20);
+        let moves = |pair: &[f64]| (pair[1] - pair[0]) * end > 0.0;
+        assert!(times.windows(2).all(moves), "{tolerance}");
+    }
+}
+
+/// A force for a short while `w` from a time on, whose switch has errors as of a long polynomial: its sign is uncertain around its zeros.
+#[derive(Clone, Copy)]
+struct Late(f64, f64);
+
+impl Late {
+    fn outside(self, t: f64) -> f64 {
+        let Self(from, w) = self;
+        (t - from) * (t - from - w) + 1e-12 * (1e14 * t).sin()
+    }
+}
+
+impl System<f64, 2> for Late {
+    fn rhs(&self, t: f64, &[_, v]: &[f64; 2]) -> [f64; 2] {
+        [v, if self.outside(t) <= 0.0 { 1.0 } else { 0.0 }]
+    }
+
+    fn switches(&self, t: f64, _: &[f64; 2], values: &mut [f64]) -> usize {
+        values[0] = self.outside(t);
+        1
+    }
+}
+
+#[test]
+fn a_switch_of_time_alone_does_not_slide() {
+    for from in [50.0, 33.3, 71.9, 12.7, 90.1] {
+        for w in [0.01, 0.003, 0.02, 0.05] {
+            for (start, end) in [(0.0, 100.0), (100.0, 0.0)] {
+                let late = Late(from, w);
+                let run = Integration::new(&late, start, &[0.0, 1.0]);
+                let done = run.run(&Dop853::new(1e-9, 1e-9), end).unwrap();
+                let gained = (done.state[1] - 1.0).abs();
+                assert!((gained - w).abs() < 1e-6, "{from} {w} {start}: {gained}");
+            }
+        }
+    }
+}
+
+/// A switch that swings with the motion and never comes to zero, which counts how often it is asked.
+struct Watching {
+    asked: core::cell::Cell<u64>,
+}
+
+impl<R: Real> System<R, 2> for Watching {
+    fn rhs(&self, _t: R, &[x, v]: &[R; 2]) -> [R; 2] {
+        [v, -x]
+    }
+
+    fn switches(&self, t: R, &[x, v]: &[R; 2], values: &mut [R]) -> usize {
+        self.asked.set(self.asked.get() + 1);
+        values[0] = R::from_ratio(21, 20) + x * v + (t * R::from_ratio(1, 2)).sin() * R::from_ratio(1, 2);
+        1
+    }
+}
+
+/// At late times, and in single precision, the roundings of the time say nothing of a swing.
+#[test]
+fn roundings_of_the_time_are_no_swings() {
+    fn looks<R: guen_runtime::Ordered>(start: R, end: R) -> f64 {
+        let watching = Watching { asked: core::cell::Cell::new(0) };
+        let run = Integration::new(&watching, start, &[R::one(), R::zero()]);
+        let done = run.run(&Dop853::<R>::new(1e-5, 1e-5), end).unwrap();
+        watching.asked.get() as f64 / done.statistics.accepted as f64
+    }
+    for start in [0.0, 1e3, 1.7e9, 1e12] {
+        let asked = looks(start, start + 50.0);
+        assert!(asked < 7.2, "{start:e}: {asked}");
+    }
+    for start in [0.0_f32, 1e3] {
+        let asked = looks(start, start + 50.0);
+        assert!(asked < 7.2, "{start:e}: {asked}");
+    }
+}
+
+/// Pulses are found at late times, too.
+#[test]
+fn swings_are_followed_at_late_times() {
+    for (w, start) in [(100.0, 1.7e9), (1.0, 1.7e9), (20.0, 1e6)] {
+        let pulses = Pulses(w);
+        let done = Integration::new(&pulses, start, &[0.0, 0.0]);
+        let done = done.run(&Dop853::new(1e-5, 1e-5), start + 200.0 / w).unwrap();
+        // Some thirty-two periods, a tenth of the time.
+        let mean = done.state[1] / (200.0 / w);
+        assert!((mean - 0.1011).abs() < 0.004, "{w} {start:e}: {mean}");
+        assert!((63..=64).contains(&done.statistics.switches), "{}", done.statistics.switches);
+    }
+}

@@ -16,8 +16,14 @@ const HALVINGS: u32 = 16;
 const UNSEEN: f64 = 0.25;
 /// The error of a cubic that is ignored, relative to the largest of the values.
 const NEGLIGIBLE: f64 = 1e-6;
-/// The part of a step over which functions are differenced.
-const DIFFERENCE: f64 = 1.0 / 1_048_576.0;
+/// The part of a step over which functions are differenced: so long that neither the roundings of values nor those of the time count.
+pub(super) fn difference<R: Real>(time: R, step: R) -> f64 {
+    const LEAST: f64 = 1.0 / 1_048_576.0;
+    const MOST: f64 = 1.0 / 16.0;
+    let epsilon = R::epsilon().to_f64();
+    let of_time = 64.0 * epsilon * (time.to_f64() / step.to_f64()).abs();
+    LEAST.max(libm::pow(epsilon, 0.4)).max(of_time).min(MOST)
+}
 
 /// The switching functions at one state.
 #[derive(Clone, Copy)]
@@ -92,17 +98,21 @@ pub(super) struct Swings<'a, R, S: ?Sized, const N: usize> {
     /// The side on which each function was last.
     sides: &'a [i8],
     left: u32,
+    /// The part of the step over which functions are differenced.
+    difference: f64,
 }
 
 impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize> Swings<'a, R, S, N> {
     pub(super) fn new(system: &'a S, ends: &'a Ends<'a, R, N>, sides: &'a [i8]) -> Self {
-        Self { system, ends, sides, left: MOST_LOOKS }
+        let ((from, _), (to, _)) = (&ends.from, &ends.to);
+        let difference = difference(to.time, to.time - from.time);
+        Self { system, ends, sides, left: MOST_LOOKS, difference }
     }
 
     /// The first part of the step at which a function is past zero, or next to it, of which the ends show nothing.
     pub(super) fn first(&mut self, begin: &Look, end: &Look) -> Option<f64> {
         let [first, second] = PLACES.map(|part| self.look(part));
-        if is_resolved(begin, &first, end) && is_resolved(begin, &second, end) {
+        if self.is_resolved(begin, &first, end) && self.is_resolved(begin, &second, end) {
             return self.near(begin, end);
         }
         let mut before = begin;
@@ -123,7 +133,7 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize> Swings<'a, R, S, N> 
         }
         self.left -= 1;
         let middle = self.look(before.part + 0.5 * (after.part - before.part));
-        if is_resolved(before, &middle, after) {
+        if self.is_resolved(before, &middle, after) {
             return self.near(before, &middle).or_else(|| self.near(&middle, after));
         }
         self.between(before, &middle, halvings - 1).or_else(|| self.between(&middle, after, halvings - 1))
@@ -131,8 +141,9 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize> Swings<'a, R, S, N> 
 
     /// The functions at a part of the step.
     fn look(&self, part: f64) -> Look {
-        let [values, mut slopes] = [part, part + DIFFERENCE].map(|part| self.values(part));
-        slopes.change(&values, |slope, value| (slope - value) / DIFFERENCE);
+        let difference = self.difference;
+        let [values, mut slopes] = [part, part + difference].map(|part| self.values(part));
+        slopes.change(&values, |slope, value| (slope - value) / difference);
         Look { part, values, slopes }
     }
 
@@ -149,6 +160,26 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize> Swings<'a, R, S, N> 
                 - of_arriving * arrives[i]
         });
         Values::of(self.system, &Checkpoint { time: from.time + step * R::from_f64(part), state, ..**from })
+    }
+
+    /// Whether the cubics of all functions through two looks agree with the values and rates at one between them, or are off by too little to
+    /// hide a zero.
+    fn is_resolved(&self, before: &Look, middle: &Look, after: &Look) -> bool {
+        let negligible = NEGLIGIBLE.max(self.difference);
+        let length = after.part - before.part;
+        let s = (middle.part - before.part) / length;
+        let r = 1.0 - s;
+        (0..before.values.count()).all(|k| {
+            let [a, m, b] = [before, middle, after].map(|look| look.values.at(k));
+            let [leaves, passes, arrives] = [before, middle, after].map(|look| length * look.slopes.at(k));
+            let value =
+                r * r * ((1.0 + 2.0 * s) * a + s * leaves) + s * s * ((3.0 - 2.0 * s) * b - r * arrives);
+            let change = 6.0 * s * r * (b - a) + r * (1.0 - 3.0 * s) * leaves + s * (3.0 * s - 2.0) * arrives;
+            let missed = (m - value).abs().max((passes - change).abs() / 8.0);
+            let least = a.abs().min(m.abs()).min(b.abs());
+            let largest = a.abs().max(m.abs()).max(b.abs());
+            !(missed > UNSEEN * least && missed > negligible * largest)
+        })
     }
 
     /// The part of the step at which a function is past zero at the second of two looks, or where its cubic between them is least, and less
@@ -176,24 +207,6 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize> Swings<'a, R, S, N> 
         }
         soonest
     }
-}
-
-/// Whether the cubics of all functions through two looks agree with the values and rates at one between them, or are off by too little to
-/// hide a zero.
-fn is_resolved(before: &Look, middle: &Look, after: &Look) -> bool {
-    let length = after.part - before.part;
-    let s = (middle.part - before.part) / length;
-    let r = 1.0 - s;
-    (0..before.values.count()).all(|k| {
-        let [a, m, b] = [before, middle, after].map(|look| look.values.at(k));
-        let [leaves, passes, arrives] = [before, middle, after].map(|look| length * look.slopes.at(k));
-        let value = r * r * ((1.0 + 2.0 * s) * a + s * leaves) + s * s * ((3.0 - 2.0 * s) * b - r * arrives);
-        let change = 6.0 * s * r * (b - a) + r * (1.0 - 3.0 * s) * leaves + s * (3.0 * s - 2.0) * arrives;
-        let missed = (m - value).abs().max((passes - change).abs() / 8.0);
-        let least = a.abs().min(m.abs()).min(b.abs());
-        let largest = a.abs().max(m.abs()).max(b.abs());
-        !(missed > UNSEEN * least && missed > NEGLIGIBLE * largest)
-    })
 }
 
 /// The part of an interval at which a cubic is least that falls at its beginning and rises at its end.

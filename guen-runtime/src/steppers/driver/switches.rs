@@ -7,7 +7,7 @@
 use crate::numbers::real::Real;
 use crate::steppers::driver::crossing::sign;
 use crate::steppers::driver::run::Checkpoint;
-use crate::steppers::driver::swings::{Ends, Look, Swings, Values};
+use crate::steppers::driver::swings::{Ends, Look, Swings, Values, difference};
 use crate::system::{MAX_SWITCHES, System};
 
 /// The time of a state past a crossing, and the functions there.
@@ -74,8 +74,12 @@ impl<R: Real> Switches<R> {
             false => 0.5,
         };
         let middle = from.time + length * R::from_f64(part);
-        // A probe in the last roundings before an end would not close the bracket from the other side.
-        let near = R::from_f64(0.5 * resolution(past.time, self.longest));
+        // A probe in the last roundings before an end would not close the bracket from the other side, and between two such ends there is none.
+        let shortest = 0.5 * resolution(past.time, self.longest);
+        if length.to_f64().abs() <= 2.0 * shortest {
+            return past.time;
+        }
+        let near = R::from_f64(shortest);
         let near = if length.to_f64() < 0.0 { -near } else { near };
         let inside = |t: R| (t - from.time - near).to_f64() * length.to_f64() > 0.0;
         let outside = |t: R| (past.time - near - t).to_f64() * length.to_f64() <= 0.0;
@@ -187,7 +191,13 @@ impl<R: Real> Switches<R> {
         let first = next(place);
         let values = Values::of(system, &first);
         match crossed {
-            Some(k) => (self.side(k) * sign(values.at(k)) < 0).then_some(k),
+            Some(k) => {
+                let side = self.side(k);
+                let returns = side * sign(values.at(k)) < 0;
+                // From the other side it has to be led back as well: a function of time alone may only be uncertain.
+                let comes = || Values::of(system, &next(&first)).at(k) - values.at(k);
+                (returns && comes() * f64::from(side) > 0.0).then_some(k)
+            }
             None => {
                 let second = Values::of(system, &next(&first));
                 let leads_back = |k: &usize| {
@@ -230,12 +240,11 @@ fn slopes<R: Real, S: System<R, N> + ?Sized, const N: usize>(
     here: &Values,
     step: R,
 ) -> Values {
-    /// The part of the step over which they are differenced.
-    const PART: f64 = 1.0 / 1_048_576.0;
-    let ahead = step * R::from_f64(PART);
+    let part = difference(place.time, step);
+    let ahead = step * R::from_f64(part);
     let state = core::array::from_fn(|i| place.state[i] + ahead * rates[i]);
     let mut slopes = Values::of(system, &Checkpoint { time: place.time + ahead, state, ..*place });
-    slopes.change(here, |slope, value| (slope - value) / PART);
+    slopes.change(here, |slope, value| (slope - value) / part);
     slopes
 }
 
