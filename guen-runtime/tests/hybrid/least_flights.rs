@@ -1,6 +1,9 @@
 //! Starts on a floor whose speeds or heights are next to nothing: such a body rests, after the few impacts that numbers can tell.
 
-use guen_runtime::hybrid::{ElementState, HybridSystem, TransitionKind};
+use core::ops::ControlFlow;
+
+use guen_runtime::hybrid::{ElementState, Hybrid, HybridSystem, Mode, Transition, TransitionKind};
+use guen_runtime::steppers::Dop853;
 
 use crate::systems::BouncingBall;
 
@@ -47,6 +50,25 @@ fn a_body_bounces_at_times_below_zero() {
         let motion = ball.simulate(&[1.0, 0.0], t..t + 60.0).unwrap();
         let count = motion.transitions().len();
         assert!((65..=70).contains(&count), "{t}: {count}");
+    }
+}
+
+/// A run that is to end far away, and stops at its hundredth impact.
+#[test]
+fn the_end_of_a_run_says_nothing_of_its_pace() {
+    for end in [1e3, 1e10, 1e300] {
+        for e in [0.99, 1.0] {
+            let mut impacts = 0;
+            let ball = BouncingBall { g: 9.81, e };
+            let mut receive = |_: &Transition<Mode<1>, 2, 1, 1>| {
+                impacts += 1;
+                if impacts < 100 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            };
+            let run = Hybrid::new(&ball, 0.0, &[0.01, 0.0]).transitions(&mut receive);
+            let done = run.run(&Dop853::new(1e-9, 1e-9), end);
+            let done = done.unwrap_or_else(|error| panic!("{end:e}, {e}: {error}"));
+            assert!(done.stopped && done.t < 10.0);
+        }
     }
 }
 

@@ -33,8 +33,9 @@ where
     pub(super) switched: usize,
     pub(super) transitions: u64,
     pub(super) work: Statistics,
-    /// The size of the last step.
+    /// The size of the last step, and of the longest one.
     pub(super) step: Option<f64>,
+    longest: f64,
     pair: Pair<C>,
 }
 
@@ -108,6 +109,7 @@ where
             transitions: 0,
             work: Statistics::default(),
             step: None,
+            longest: 0.0,
             pair: Pair { modes: [mode; 2], count: 0, since: f64::NEG_INFINITY },
         };
         run.to(method, end, witness)
@@ -296,13 +298,13 @@ where
         transition: &Transition<Mode<C>, N, W, C>,
         end: f64,
     ) -> Result<(), HybridCause<C>> {
-        /// Transitions, and the part of the span of the run within which they are too many.
+        /// Transitions, and the part of the longest step, or of the span of the run if that is shorter, within which they are too many.
         const TRANSITIONS: u32 = 50;
         const SPAN: f64 = 1e-9;
 
         let (a, b) = (transition.before, transition.after);
         let same = self.pair.modes == [a, b] || self.pair.modes == [b, a];
-        let within = SPAN * (end - self.hybrid.t);
+        let within = SPAN * (end - self.hybrid.t).min(self.longest);
         if !same || transition.t - self.pair.since > within {
             self.pair = Pair { modes: [a, b], count: 0, since: transition.t };
         }
@@ -364,6 +366,7 @@ where
             made.map_err(|cause| self.back_to(watch.stopped(&in_mode, run.checkpoint(), cause)))?;
             let polynomial = run.dense(&in_mode);
             let after = *run.checkpoint();
+            self.longest = self.longest.max(after.time - before.time);
             self.work = after.statistics;
             let at = |t: f64| {
                 if t == after.time {
