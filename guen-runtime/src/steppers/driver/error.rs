@@ -164,7 +164,7 @@ pub enum Setting {
     Order,
     /// The period of a controller is not positive and finite.
     Period,
-    /// A run with a controller goes backwards in time.
+    /// A run with a controller, or through modes, goes backwards in time.
     Backwards,
 }
 
@@ -300,7 +300,7 @@ impl Cause {
                 f.write_str("the period of the controller is not a positive number")
             }
             Self::Setting(Setting::Backwards) => {
-                f.write_str("a controller that holds its inputs cannot run backwards in time")
+                f.write_str("a run through modes, or with a controller that holds its inputs, cannot go backwards in time")
             }
             Self::Setting(Setting::Budget) => {
                 f.write_str("the number of evaluations is not enough for one step")
