@@ -2,8 +2,11 @@
 
 use core::ops::ControlFlow;
 
-use guen_runtime::hybrid::{ElementState, Hybrid, HybridSystem, Mode, Transition, TransitionKind};
+use guen_runtime::hybrid::{
+    ElementState, Hybrid, HybridCause, HybridSystem, Mode, Transition, TransitionKind,
+};
 use guen_runtime::steppers::Dop853;
+use guen_runtime::{Cause, Setting};
 
 use crate::systems::BouncingBall;
 
@@ -80,4 +83,24 @@ fn an_elastic_body_does_not_rest() {
         assert!(motion.transitions().iter().all(|at| at.kind == TransitionKind::Impact), "{t}");
         assert!(motion.transitions().len() > 20);
     }
+}
+
+/// Settings that make no sense are refused before anything is done.
+#[test]
+fn samples_after_the_end_and_accuracies_that_are_none_are_refused() {
+    let ball = BouncingBall { g: 9.81, e: 0.5 };
+    let refused = |run: Hybrid<'_, BouncingBall, 2, 1, 1, 0>| {
+        let error = run.run(&Dop853::new(1e-9, 1e-9), 2.0).unwrap_err();
+        assert_eq!((error.t, error.state), (0.0, [1.0, 0.0]));
+        error.cause
+    };
+    let begin = || Hybrid::new(&ball, 0.0, &[1.0, 0.0]);
+    let mut visit = |_: usize, _: f64, _: &[f64; 2], _: &Mode<1>| panic!();
+    let late = refused(begin().sample(&[0.0, 2.5], &mut visit));
+    assert_eq!(late, HybridCause::Integration(Cause::Setting(Setting::Samples)));
+    for accuracy in [f64::NAN, -1.0, f64::INFINITY] {
+        let cause = refused(begin().resting_accuracy(accuracy));
+        assert_eq!(cause, HybridCause::Integration(Cause::Setting(Setting::Accuracy)));
+    }
+    assert!(begin().resting_accuracy(0.0).run(&Dop853::new(1e-9, 1e-9), 2.0).is_ok());
 }

@@ -95,7 +95,8 @@ where
         }
     }
 
-    /// Shows the state and the mode at these times, in order, to a visitor; at the time of a transition those after it.
+    /// Shows the state and the mode at these times, in order from the start to the end, to a visitor; at the time of a transition those
+    /// after it.
     #[must_use]
     pub fn sample(self, times: &'a [f64], visitor: Visitor<'a, H::Mode, N>) -> Self {
         Self { samples: times, visitor: Some(visitor), ..self }
@@ -129,7 +130,7 @@ where
         Self { between: Some(receiver), ..self }
     }
 
-    /// Sets the error, as a time, with which the end of infinitely many impacts may be found: `1e-12` unless it is set.
+    /// Sets the error, as a time, with which the end of infinitely many impacts may be found: `1e-12` unless it is set. A nonnegative number.
     #[must_use]
     pub fn resting_accuracy(self, time: f64) -> Self {
         Self { resting_accuracy: time, ..self }

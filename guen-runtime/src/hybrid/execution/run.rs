@@ -84,8 +84,12 @@ where
             return Err(fail(Cause::Setting(Setting::Backwards)));
         }
         let inputs = self.inputs.iter().map(|(time, _)| *time);
-        if !in_order(self.t, self.samples.iter().copied()) || !in_order(self.t, inputs) {
+        let is_late = self.samples.last().is_some_and(|sample| *sample > end);
+        if is_late || !in_order(self.t, self.samples.iter().copied()) || !in_order(self.t, inputs) {
             return Err(fail(Cause::Setting(Setting::Samples)));
+        }
+        if !(self.resting_accuracy >= 0.0 && self.resting_accuracy.is_finite()) {
+            return Err(fail(Cause::Setting(Setting::Accuracy)));
         }
         if let Some(sampler) = &self.sampler {
             sampler.check((self.t, end)).map_err(fail)?;

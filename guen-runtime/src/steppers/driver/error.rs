@@ -162,6 +162,8 @@ pub enum Setting {
     Budget,
     /// The order of the method is none that it has.
     Order,
+    /// The error of the time at which impacts come to rest is not a nonnegative number.
+    Accuracy,
     /// The period of a controller is not positive and finite.
     Period,
     /// A run with a controller, or through modes, goes backwards in time.
@@ -296,6 +298,9 @@ impl Cause {
             }
             Self::Setting(Setting::Guard) => f.write_str("a limit of the guard is not a nonnegative number"),
             Self::Setting(Setting::Order) => f.write_str("the order is not between 2 and 32"),
+            Self::Setting(Setting::Accuracy) => {
+                f.write_str("the accuracy of the time of rest is not a nonnegative number")
+            }
             Self::Setting(Setting::Period) => {
                 f.write_str("the period of the controller is not a positive number")
             }
