@@ -6,7 +6,7 @@ use crate::algebra::{ExprId, Graph};
 
 impl ZeroTest {
     /// The rank of a matrix at general points of the manifold, observed at real points in 237 bits where there are none modulo the prime: all rows
-    /// at one of them, fewer at [`REAL_WITNESSES`]; `None` if there are not as many.
+    /// at one of them, fewer at [`REAL_WITNESSES`], or at [`LEAST_WITNESSES`] if there are no more; `None` without as many.
     pub(crate) fn observed_rank(&mut self, g: &mut Graph, rows: &[Vec<ExprId>]) -> Option<usize> {
         if self.manifold_is_solved() {
             return self.rank(g, rows, true);
@@ -17,10 +17,10 @@ impl ZeroTest {
             let Some(RealRank { rank: observed, is_certain }) = point.rank(g, rows) else { continue };
             (rank, witnesses) = (rank.max(observed), witnesses + usize::from(is_certain));
             if rank == rows.len() || witnesses == REAL_WITNESSES {
-                return Some(rank);
+                break;
             }
         }
-        None
+        (rank == rows.len() || witnesses >= LEAST_WITNESSES).then_some(rank)
     }
 
     /// The rows of velocities, with their parts without velocities, that are combinations of others at all points of the manifold, though not
