@@ -8,7 +8,7 @@ use super::evaluate::Evaluator;
 use super::expression_place::ExpressionPlace;
 use super::scope::Category;
 use super::value::Value;
-use super::{FixedConstant, SceneEntry, SceneModes};
+use super::{ConstantEntry, FixedConstant, SceneEntry, SceneModes};
 use crate::diagnostics::Fault;
 use crate::names::{self, module_name};
 use crate::syntax::{Declaration, Fix, Item, Name, Provide, Scene};
@@ -35,6 +35,7 @@ impl Evaluator<'_> {
         scene: &'a Scene,
         declaration: &Declaration,
         earlier: &[&Scene],
+        constants: &[ConstantEntry<'_>],
         is_in_mode: bool,
     ) -> Option<SceneEntry<'a>> {
         let before = self.faults.count();
@@ -56,7 +57,7 @@ impl Evaluator<'_> {
         for provide in &scene.provides {
             self.provided(provide, is_in_mode);
         }
-        self.resolve_values(&mut fixes);
+        self.resolve_values(&mut fixes, constants);
         (self.faults.count() == before).then_some(SceneEntry {
             scene,
             fixes,
@@ -202,7 +203,7 @@ impl Evaluator<'_> {
     }
 
     /// Values that use fixed constants get the values of these; what cannot be is reported.
-    fn resolve_values(&mut self, fixes: &mut [FixedConstant<'_>]) {
+    fn resolve_values(&mut self, fixes: &mut [FixedConstant<'_>], constants: &[ConstantEntry<'_>]) {
         let symbols: Vec<ExprId> = fixes.iter().map(|fix| fix.symbol).collect();
         // Each round replaces every fixed constant by its value: a value that needs more rounds uses itself.
         for _ in 0..fixes.len() {
@@ -212,6 +213,8 @@ impl Evaluator<'_> {
                 fix.value = by_values.of(&mut self.bench.graph, fix.value);
             }
         }
+        let values: Vec<(ExprId, ExprId)> = fixes.iter().map(|fix| (fix.symbol, fix.value)).collect();
+        let mut at_values = Substitution::new(values);
         for fix in fixes {
             let graph = &self.bench.graph;
             let inside: Vec<ExprId> =
@@ -222,6 +225,19 @@ impl Evaluator<'_> {
                 continue;
             }
             let Some(symbol) = graph.as_symbol(fix.symbol) else { continue };
+            let limits = constants.iter().find(|constant| constant.symbol == fix.symbol);
+            if let Some([lower, upper]) = limits.and_then(|constant| constant.limits) {
+                let graph = &mut self.bench.graph;
+                let [lower, upper] = [lower, upper].map(|limit| at_values.of(graph, limit));
+                let outside = [graph.sub(fix.value, lower), graph.sub(upper, fix.value)];
+                if outside.iter().any(|rest| graph.as_number(*rest).is_some_and(|rest| rest.is_negative())) {
+                    let text = format!("this value lies outside of the limits of `{}`", fix.name);
+                    let fault = Fault::new(fix.name.span(), text);
+                    self.faults.report(fault.help("change the value, or the limits under `constants`"));
+                    continue;
+                }
+            }
+            let graph = &self.bench.graph;
             let Some(number) = graph.as_number(fix.value) else { continue };
             let broken = match graph.symbol_info(symbol).bound {
                 SignBound::Positive => (number.is_negative() || number.is_zero()).then_some("> 0"),

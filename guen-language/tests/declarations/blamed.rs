@@ -184,3 +184,29 @@ fn functions_of_instances_are_called_as_they_are_written() {
     );
     assert!(!told.contains("`drive_0_"), "{told}");
 }
+
+#[test]
+fn a_fixed_value_lies_between_the_limits() {
+    let fixed = |fixes: &str| {
+        messages(&format!(
+            "system S {{
+                constants {{ most = 10, k in -3..most = 2, turn: deg in -90..90 = 5, a[2] in 1/4..1/2 = 1/3, e in 0..1 = 0 }}
+                coordinates {{ x }} kinetic_energy = dot(x)^2; outputs {{ o = k + turn + a[0]*a[1] + e*x; }}
+                scene Some {{ track x; {fixes} }}
+            }}"
+        ))
+    };
+    let outside = |name: &str| vec![format!("this value lies outside of the limits of `{name}`")];
+    assert_eq!(fixed("fix turn = 100;"), outside("turn"));
+    assert_eq!(fixed("fix turn = -91;"), outside("turn"));
+    assert_eq!(fixed("fix a[1] = 1;"), outside("a[1]"));
+    assert_eq!(fixed("fix a = 0;"), outside("a[0]"));
+    assert_eq!(fixed("fix e = -1;"), outside("e"));
+    assert_eq!(fixed("fix k = -4;"), outside("k"));
+    assert_eq!(fixed("fix k = 20, most = 15;"), outside("k"));
+    // What the limit is follows from the program.
+    for fixes in ["fix k = 20;", "fix k = 20, most = 30;", "fix turn = 90, a = 1/2, e = 0;", "fix a[0] = e;"]
+    {
+        assert!(fixed(fixes).is_empty(), "{fixes}: {:?}", fixed(fixes));
+    }
+}

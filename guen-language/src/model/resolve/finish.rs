@@ -83,7 +83,8 @@ impl<'a> Resolver<'a, '_> {
                 self.eval.faults.report(fault.help("declare them: `contacts { name: gap = e; }`"));
             }
             let is_in_mode = matches!(of_scene, SceneModes::One(_)) || self.declaration.in_mode.is_some();
-            let entry = self.eval.scene(scene, self.declaration, &written[..place], is_in_mode);
+            let entry =
+                self.eval.scene(scene, self.declaration, &written[..place], &self.constants, is_in_mode);
             scenes.extend(entry.map(|entry| SceneEntry { modes: of_scene, ..entry }));
         }
         let before = self.eval.faults.count();
