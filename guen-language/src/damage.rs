@@ -69,7 +69,7 @@ pub(crate) struct Damaged {
     lost_components: BTreeSet<String>,
     /// Whether a component has lost its name, so that any unknown one may be this component.
     has_unnamed_component: bool,
-    /// The names of instances that are missing, because of a fault in their `use` or in their component.
+    /// The names of instances that are missing.
     lost_instances: BTreeSet<String>,
 }
 
@@ -146,10 +146,11 @@ impl Damaged {
                 damaged.is_damaged_elsewhere = true;
             }
             damaged.add(tokens, &place, 0);
-            damaged.add_uses(tokens, &place);
         }
         damaged.add_lost(tokens);
-        damaged.add_lost_instances(tokens, items);
+        if !faults.is_empty() {
+            damaged.add_lost_instances(tokens, items);
+        }
         let declared = items.iter().flat_map(|item| item.declared());
         for name in declared {
             let text = array_of(&name.text);
@@ -280,30 +281,10 @@ impl Damaged {
         }
     }
 
-    /// Adds the instances whose `use` holds a place.
-    fn add_uses(&mut self, tokens: &[TokenTree], at: &FaultPlace) {
-        each_use(tokens, (usize::MAX, 0), &mut |statement, _, name| {
-            let holds = match at {
-                FaultPlace::Position(at) => {
-                    statement.tokens.first().is_some_and(|first| start(first) <= *at) && *at < statement.end
-                }
-                FaultPlace::Token(_) => at.is_among(statement.tokens),
-            };
-            if holds {
-                self.lost_instances.insert(name.to_owned());
-            }
-        });
-    }
-
-    /// Adds the statements that speak of instances which are missing from the items.
+    /// Adds the statements that speak of instances of which the items have nothing. Whatever the faults are, they are the reason: they are in
+    /// the `use`, in a loop around it, or in the component.
     fn add_lost_instances(&mut self, tokens: &[TokenTree], items: &[Item]) {
-        let components = std::mem::take(&mut self.lost_components);
-        each_use(tokens, (usize::MAX, 0), &mut |_, component, name| {
-            if components.contains(component) {
-                self.lost_instances.insert(name.to_owned());
-            }
-        });
-        self.lost_components = components;
+        uses(tokens, (usize::MAX, 0), &mut self.lost_instances);
         for name in items.iter().flat_map(|item| item.declared()) {
             for step in name.text.split('.') {
                 self.lost_instances.remove(array_of(step));
@@ -391,17 +372,11 @@ fn without_crate_path(tokens: &[TokenTree]) -> &[TokenTree] {
     }
 }
 
-/// Calls a function for every `use` with the component's name and that of the instance.
-fn each_use(tokens: &[TokenTree], end: Position, visit: &mut dyn FnMut(&Statement<'_>, &str, &str)) {
+/// The name of the instance of every `use`.
+fn uses(tokens: &[TokenTree], end: Position, found: &mut BTreeSet<String>) {
     for statement in statements(tokens, end) {
         if head(statement.tokens).as_deref() == Some("use") {
-            for words in statement.tokens.windows(3) {
-                if let [TokenTree::Ident(component), TokenTree::Ident(word), TokenTree::Ident(name)] = words
-                    && word == "as"
-                {
-                    visit(&statement, &component.to_string(), &name.to_string());
-                }
-            }
+            found.extend(word_behind(statement.tokens, "as"));
             continue;
         }
         for token in statement.tokens {
@@ -409,7 +384,7 @@ fn each_use(tokens: &[TokenTree], end: Position, visit: &mut dyn FnMut(&Statemen
                 && group.delimiter() == Delimiter::Brace
             {
                 let within: Vec<TokenTree> = group.stream().into_iter().collect();
-                each_use(&within, position_of(group.span_close()), visit);
+                uses(&within, position_of(group.span_close()), found);
             }
         }
     }

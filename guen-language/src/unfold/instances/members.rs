@@ -22,7 +22,7 @@ pub(super) struct Scope {
     instances: BTreeMap<String, InstanceScope>,
     /// The declared names of instances, by their paths.
     members: BTreeMap<String, Name>,
-    /// Those among them that are read inside of their component only, which no help may name.
+    /// The names among them that are read inside of their component only, which no help may give.
     private: BTreeSet<String>,
     /// The component of each array of instances, with the place of the first.
     arrays: BTreeMap<String, (String, proc_macro2::Span)>,
@@ -155,7 +155,9 @@ impl Scope {
                 }
                 return;
             }
-            ExpressionKind::Field { name, .. } if !matches!(name.index, Index::None) => {
+            ExpressionKind::Field { base, name }
+                if !matches!(name.index, Index::None) && !self.is_unknown(base, hidden) =>
+            {
                 let text = format!("`{}` has no entries", name.root());
                 faults.report(
                     Fault::new(name.span(), text).note("arrays are declared, and instances have arrays"),
@@ -178,6 +180,19 @@ impl Scope {
             _ => {}
         }
         e.children_mut().into_iter().for_each(|child| self.expression(child, hidden, faults));
+    }
+
+    /// Whether an expression is a name that nothing declares, or something behind one: it is reported as unknown.
+    fn is_unknown(&self, e: &Expression, hidden: &[&str]) -> bool {
+        match &e.kind {
+            ExpressionKind::Field { base, .. } => self.is_unknown(base, hidden),
+            ExpressionKind::Name(name) => {
+                let mut known = self.own.keys().chain(self.announced.keys());
+                !hidden.contains(&name.text.as_str())
+                    && !known.any(|known| array_of(known) == array_of(&name.text))
+            }
+            _ => false,
+        }
     }
 
     /// The path of the instance before the last point of an expression, and the name behind it.
