@@ -113,6 +113,11 @@ pub(crate) fn provides(cursor: &mut Cursor, faults: &mut Faults) -> Vec<Provide>
         };
         let begins = |cursor: &Cursor| cursor.ident_at(0).is_some();
         let mut inside = Cursor::inside(&group);
+        if inside.is_end() {
+            let fault = Fault::new(group.span(), format!("`{quantity}()` names nothing"));
+            faults.report(fault.help(format!("write `{quantity}` for all of them")));
+            return Ok(Provide { name: quantity, of: None });
+        }
         let of = separated(&mut inside, faults, MAX_ENTRIES, Cursor::is_end, begins, |cursor, faults| {
             member_name(cursor, faults, "the name of a constraint")
         });

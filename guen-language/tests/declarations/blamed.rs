@@ -216,3 +216,14 @@ fn a_fixed_value_lies_between_the_limits() {
         assert!(fixed(fixes).is_empty(), "{fixes}: {:?}", fixed(fixes));
     }
 }
+
+#[test]
+fn an_empty_list_of_reactions_is_told() {
+    let messages = messages(
+        "system S {
+            coordinates { x, y } constraints { c: dot(x) = dot(y); } kinetic_energy = dot(x)^2 + dot(y)^2;
+            scene Some { provide reactions(); track q; }
+        }",
+    );
+    assert_eq!(messages, ["`reactions()` names nothing", "unknown name `q` in a scene"]);
+}
