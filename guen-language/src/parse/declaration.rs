@@ -452,8 +452,10 @@ fn section(kind: SectionKind, group: &Group, faults: &mut Faults, docs: Docs, ke
         SectionKind::Coordinates => {
             let names = plain_names(group, faults, "the name of a coordinate", MAX_COORDINATES);
             if group.stream().is_empty() {
-                let fault = Fault::new(keyword, "a system has at least one coordinate");
-                faults.report(fault.help("write `coordinates { x, y }`"));
+                let fault = Fault::new(keyword, "`coordinates` declares nothing");
+                faults.report(
+                    fault.help("write `coordinates { x, y }`; a component without any has no such section"),
+                );
             }
             Item::Coordinates(of(docs, keyword, names))
         }

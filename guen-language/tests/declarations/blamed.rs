@@ -227,3 +227,17 @@ fn an_empty_list_of_reactions_is_told() {
     );
     assert_eq!(messages, ["`reactions()` names nothing", "unknown name `q` in a scene"]);
 }
+
+#[test]
+fn a_family_without_contacts_has_modes() {
+    for n in [0, 1] {
+        let messages = messages(&format!(
+            "system S {{
+                count n = {n}; coordinates {{ x, q[n] }} kinetic_energy = dot(x)^2 + sum(i in 0..n: dot(q[i])^2);
+                contacts {{ for i in 0..n {{ c[i]: gap = q[i]; }} }} modes {{ for i in 0..n {{ c[i]: open; }} }}
+                scene Some {{ track x; modes {{ for i in 0..n {{ c[i]: open; }} }} }}
+            }}"
+        ));
+        assert!(messages.is_empty(), "{messages:#?}");
+    }
+}

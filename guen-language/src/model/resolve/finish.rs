@@ -77,7 +77,8 @@ impl<'a> Resolver<'a, '_> {
                 of_scene = found.unwrap_or(SceneModes::Without);
             }
             let is_idle = !has_contacts && !self.eval.scope.has_contacts() && !self.declaration.is_outline;
-            if let Some(section) = scene.modes.first().filter(|_| is_idle) {
+            let mut of_contacts = scene.modes.iter().filter(|section| is_idle && !section.entries.is_empty());
+            if let Some(section) = of_contacts.next() {
                 let text = "there are no contacts that `modes` could speak of";
                 let fault = Fault::new(section.keyword, text);
                 self.eval.faults.report(fault.help("declare them: `contacts { name: gap = e; }`"));

@@ -51,6 +51,8 @@ impl Resolver<'_, '_> {
         for (place, item) in declaration.items.iter().enumerate() {
             let is_own = declaration.origins.get(place).copied().flatten().is_none();
             match item {
+                // That of a family without members says nothing.
+                Item::Modes(section) if section.entries.is_empty() && !self.eval.scope.has_contacts() => {}
                 Item::Modes(section) if !self.eval.scope.has_contacts() => {
                     let text = "there are no contacts that `modes` could speak of";
                     let fault = Fault::new(section.keyword, text);
