@@ -213,7 +213,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                     section.entries.iter().for_each(|e| scope.announce(&e.name));
                 }
                 Item::Let(definition) => scope.announce(&definition.name),
-                Item::Argument(argument) => scope.announce(&argument.name),
+                Item::Argument(argument) => scope.announce_argument(&argument.name),
                 Item::Function(function) => scope.announce(&function.name),
                 Item::Functions(section) => section.entries.iter().for_each(|e| scope.announce(&e.name)),
                 Item::Parameters(section) | Item::Outputs(section) => {

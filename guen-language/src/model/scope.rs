@@ -92,6 +92,8 @@ pub(super) struct Scope {
     entries: BTreeMap<String, Entry>,
     // In the order of declaration, for messages that list names.
     order: Vec<String>,
+    // Arguments of components, which only their component reads.
+    private: BTreeSet<String>,
     // Everything that the declaration declares anywhere, to tell "later" from "never".
     later: BTreeMap<String, Span>,
     // Whether there are contacts, whose friction knows `speed`.
@@ -107,6 +109,25 @@ impl Scope {
     /// Announces a name that is declared somewhere.
     pub(super) fn announce(&mut self, name: &Name) {
         self.later.entry(name.text.clone()).or_insert_with(|| name.span());
+    }
+
+    /// Announces an argument of a component, which messages do not offer for use.
+    pub(super) fn announce_argument(&mut self, name: &Name) {
+        self.private.insert(name.text.clone());
+        self.announce(name);
+    }
+
+    /// The names that messages offer, in the order of declaration: those of instances without what is private to their component.
+    fn offered(&self) -> impl Iterator<Item = &str> {
+        let is_private = |text: &str| {
+            let is_function = || self.category(text) == Some(Category::Function);
+            let mut steps = text.split('.').skip(1).peekable();
+            let is_of_instance = steps.peek().is_some();
+            self.private.contains(text)
+                || is_of_instance && is_function()
+                || steps.any(|step| step.starts_with('_'))
+        };
+        self.order.iter().map(String::as_str).filter(move |text| !is_private(text))
     }
 
     /// Whether contacts are declared somewhere.
@@ -229,12 +250,19 @@ impl Scope {
             self.unknown.extend(["d", "dt"].map(String::from));
         } else if name.text == SPEED && self.has_contacts {
             fault = fault.help("`speed` is the magnitude of the slip, inside of `friction` alone");
-        } else if let Some(near) = names::nearest(&name.text, self.order.iter().map(String::as_str)) {
+        } else if let Some(near) = names::nearest(&name.text, self.offered()) {
             fault = fault.help(format!("did you mean `{near}`?"));
         } else if !self.order.is_empty() {
-            let mut known: Vec<&str> = self.order.iter().map(|text| names::array_of(text)).collect();
-            known.dedup();
-            fault = fault.help(format!("declared so far are {}", names::quoted(known)));
+            // Arrays are offered as wholes, those of instances too.
+            let whole = |text: &str| text.split('.').map(names::array_of).collect::<Vec<_>>().join(".");
+            let mut known: Vec<String> = Vec::new();
+            for text in self.offered().map(whole) {
+                if !known.contains(&text) {
+                    known.push(text);
+                }
+            }
+            fault = fault
+                .help(format!("declared so far are {}", names::quoted(known.iter().map(String::as_str))));
         }
         faults.report(fault);
         None

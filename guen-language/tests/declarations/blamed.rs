@@ -241,3 +241,24 @@ fn a_family_without_contacts_has_modes() {
         assert!(messages.is_empty(), "{messages:#?}");
     }
 }
+
+#[test]
+fn declared_names_are_offered_as_wholes() {
+    let told = guen_language::expand(
+        "system S {
+            component Leg(p: scalar) {
+                functions { law(x); } constants { k[2] = 1 } coordinates { z } let _half = z/2; fn twice(x) = 2*x;
+                kinetic_energy = k[0]*dot(z)^2 + k[1]*p^2; forces { law(_half) + twice(z) along dot(z); }
+            }
+            component Pair(p: scalar) { for i in 0..2 { use Leg as leg[i] { p } } }
+            coordinates { x, y[3] } kinetic_energy = dot(x)^2 + sum(i in 0..3: dot(y[i])^2);
+            for i in 0..2 { use Pair as pair[i] { p: x } }
+            scene Some { track pair.leg.unknown; }
+        }"
+        .parse()
+        .unwrap(),
+    )
+    .to_string();
+    let offered = "declared so far are `pair.leg.k`, `x`, `y`, `pair.leg.z`";
+    assert!(told.contains(&format!("{offered}\\n")) || told.contains(&format!("{offered}\"")), "{told:.900}");
+}
