@@ -262,3 +262,14 @@ fn declared_names_are_offered_as_wholes() {
     let offered = "declared so far are `pair.leg.k`, `x`, `y`, `pair.leg.z`";
     assert!(told.contains(&format!("{offered}\\n")) || told.contains(&format!("{offered}\"")), "{told:.900}");
 }
+
+#[test]
+fn a_component_that_is_zero_is_not_tracked() {
+    let messages = messages(
+        "system S {
+            coordinates { x, y } parameters { v = vec(dot(x), dot(y)); } kinetic_energy = inner(v, v);
+            scene Some { track v_z; } scene Other { track v_z, v_x; }
+        }",
+    );
+    assert_eq!(messages, ["nothing that scene `Some` tracks moves"]);
+}

@@ -124,6 +124,10 @@ pub(super) fn tracked(model: &Model<'_>, scene: &SceneEntry<'_>) -> Vec<StateInd
 /// A scene that fixes all that it would track.
 pub(super) fn nothing_moves(scene: &SceneEntry<'_>) -> Fault {
     let name = &scene.scene.name;
+    if let Some(tracked) = scene.scene.tracks.first() {
+        let fault = Fault::new(tracked.span(), format!("nothing that scene `{name}` tracks moves"));
+        return fault.note("a component of a vector that is zero is no variable");
+    }
     let fault = Fault::new(name.span(), format!("scene `{name}` has nothing that moves"))
         .note("without `track` the parameters are tracked, and all of them are fixed");
     fault.help("write `track` and what somebody will look at")
