@@ -194,21 +194,6 @@ impl ZeroTest {
         self.derivatives_vanish(g, e, variables, DERIVATIVE_DEPTH)
     }
 
-    /// Whether a function without derivatives by what moves has several values, as `sign(x)` has, and `atan(x) + atan(1/x)`: seen at real points
-    /// with the same constants. Roots are what they are on the manifold, and such points do not lie there.
-    pub(crate) fn has_several_values(&mut self, g: &Graph, e: ExprId) -> bool {
-        self.table.scan(g);
-        let flags = self.table.flags[e.index()];
-        // Anything else is meromorphic, and one constant everywhere.
-        let may_jump = if self.manifold.is_some() { PIECEWISE } else { PIECEWISE | SIGN | ROOT | ATOM };
-        if flags & may_jump == 0 {
-            return false;
-        }
-        let mut values = (0..REAL_POINTS as u64).map(|number| RealPoint::with_first_constants(g, e, number));
-        let Some(first) = values.find(Option::is_some).flatten() else { return false };
-        values.flatten().any(|value| value.differs(first))
-    }
-
     fn derivatives_vanish(&mut self, g: &mut Graph, e: ExprId, variables: &[ExprId], depth: u32) -> Verdict {
         self.table.scan(g);
         // Between its jumps a function may be constant, and change at them.

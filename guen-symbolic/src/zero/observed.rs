@@ -1,6 +1,7 @@
-//! Ranks where the holonomic constraints hold: what real points of them show, in 237 bits, beside what residues say.
+//! Facts that real points show, in 237 bits, beside what residues say: ranks where the holonomic constraints hold, and functions that jump.
 
-use super::real::RealRank;
+use super::real::{RealPoint, RealRank};
+use super::table::{ATOM, PIECEWISE, ROOT, SIGN};
 use super::{LEAST_WITNESSES, REAL_POINTS, REAL_WITNESSES, Redundant, ZeroTest};
 use crate::algebra::{ExprId, Graph};
 
@@ -21,6 +22,21 @@ impl ZeroTest {
             }
         }
         (rank == rows.len() || witnesses >= LEAST_WITNESSES).then_some(rank)
+    }
+
+    /// Whether a function without derivatives by what moves has several values, as `sign(x)` has, and `atan(x) + atan(1/x)`: seen at real points
+    /// with the same constants. Roots are what they are on the manifold, and such points do not lie there.
+    pub(crate) fn has_several_values(&mut self, g: &Graph, e: ExprId) -> bool {
+        self.table.scan(g);
+        let flags = self.table.flags[e.index()];
+        // Anything else is meromorphic, and one constant everywhere.
+        let may_jump = if self.manifold.is_some() { PIECEWISE } else { PIECEWISE | SIGN | ROOT | ATOM };
+        if flags & may_jump == 0 {
+            return false;
+        }
+        let mut values = (0..REAL_POINTS as u64).map(|number| RealPoint::with_first_constants(g, e, number));
+        let Some(first) = values.find(Option::is_some).flatten() else { return false };
+        values.flatten().any(|value| value.differs(first))
     }
 
     /// The rows of velocities, with their parts without velocities, that are combinations of others at all points of the manifold, though not
