@@ -142,23 +142,24 @@ def written(path, states):
 
 
 def compare(title, folder, own, peers, common):
-    """Prints a line for each peer. A program is a library, a function, states and their size; `common` are as many of the last
+    """Prints a line for each peer, with the ratios of our programs to it. A program is a library, a function, states and their size; `common` are as many of the last
     rates as both sides have."""
-    programs = [own, *peers.values()]
+    programs = [*own.values(), *peers.values()]
     lines = run([folder / "clock", ROUNDS, *(word for program in programs for word in program)]).splitlines()
     rates = [[float.fromhex(word) for word in line.split()][-common:] for line in lines[: len(programs)]]
-    for name, found in zip(peers, rates[1:]):
+    for name, found in zip([*own, *peers], rates):
         scale = max(map(abs, rates[0]))
         worst = max(abs(a - b) for a, b in zip(rates[0], found)) / scale
         if not worst < 1e-9:
             sys.exit(f"{title}: {name} differs by {worst:.1e} of the largest rate")
     times = [[float(word) for word in line.split()] for line in lines[len(programs) :]]
-    print(f"{title:12}{'declared':60}{min(row[0] for row in times):9.1f} ns")
-    for k, name in enumerate(peers, 1):
-        ratios = sorted(row[0] / row[k] for row in times)
-        # Order statistics that hold the median with 95 percent.
-        low, high = ratios[13], ratios[27]
-        print(f"{'':12}{name:60}{min(row[k] for row in times):9.1f} ns   {ratios[ROUNDS // 2]:.3f} [{low:.3f}, {high:.3f}]")
+    for k, name in enumerate([*own, *peers]):
+        line = f"{title if k == 0 else '':12}{name:60}{min(row[k] for row in times):9.1f} ns"
+        for j in range(len(own) if k >= len(own) else 0):
+            ratios = sorted(row[j] / row[k] for row in times)
+            # Order statistics that hold the median with 95 percent.
+            line += f"   {ratios[ROUNDS // 2]:.3f} [{ratios[13]:.3f}, {ratios[27]:.3f}]"
+        print(line)
 
 
 def main():
@@ -169,20 +170,23 @@ def main():
         for robot, links in robots.items():
             (folder / f"{robot}.robot").write_text(table(links, draw))
         run(["gcc", "-O2", HERE / "bodies.c", "-o", folder / "clock", "-ldl"])
-        own = ours(folder, "--default" not in sys.argv)
+        library = ours(folder, "--default" not in sys.argv)
+        declared = lambda system, states: {
+            title: (library, system + ending, *states) for title, ending in (("declared", ""), ("declared, over Fused", "_fused"))
+        }
         peers = {
-            f"Pinocchio, {convention}, {flags}": (library, convention)
-            for flags, library in pinocchio(folder).items()
+            f"Pinocchio, {convention}, {flags}": (built, convention)
+            for flags, built in pinocchio(folder).items()
             for convention in ("local", "world")
         }
         states = written(folder / "bicycle.states", [state_of_bicycle(draw) for _ in range(STATES)])
         theirs = {title: (*program, *states) for title, program in casadi(folder).items()}
-        compare("bicycle", folder, (own, "bicycle", *states), theirs, states[1])
+        compare("bicycle", folder, declared("bicycle", states), theirs, states[1])
         for robot, links in robots.items():
             pairs = [state_of_robot(len(links), draw) for _ in range(STATES)]
             angles, quaternions = (written(folder / f"{robot}.{k}", [pair[k] for pair in pairs]) for k in (0, 1))
-            theirs = {title: (library, f"{robot}_{convention}", *quaternions) for title, (library, convention) in peers.items()}
-            compare(robot, folder, (own, robot, *angles), theirs, 6 + len(links))
+            theirs = {title: (built, f"{robot}_{convention}", *quaternions) for title, (built, convention) in peers.items()}
+            compare(robot, folder, declared(robot, angles), theirs, 6 + len(links))
 
 
 main()

@@ -1,6 +1,8 @@
 //! Declared systems behind an interface of C: each has a function that reads a state and writes its rates. States are those of the
 //! declarations, coordinates first.
 
+use guen::{Fused, Real, WithScalar};
+
 mod bicycle {
     guen::mechanical_system! {
         /// The bicycle of `tests/motion/published`, with all its constants given at run time.
@@ -77,9 +79,9 @@ mod humanoid {
     include!(concat!(env!("OUT_DIR"), "/humanoid.rs"));
 }
 
-/// A function of C with the rates of a system.
+/// Functions of C with the rates of a system, over `f64` and over `Fused`, whose sums of products round once where the peers' do.
 macro_rules! served {
-    ($name:ident, $size:literal) => {
+    ($name:ident, $fused:ident, $size:literal) => {
         /// Reads a state and writes its rates.
         ///
         /// # Safety
@@ -90,9 +92,24 @@ macro_rules! served {
             static SYSTEM: std::sync::LazyLock<$name::System> = std::sync::LazyLock::new($name::prepared);
             unsafe { *rates = guen::System::rhs(&*SYSTEM, 0.0, &*state) };
         }
+
+        /// Reads a state and writes its rates.
+        ///
+        /// # Safety
+        ///
+        /// Both point to as many numbers as the state has.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $fused(state: *const [f64; $size], rates: *mut [f64; $size]) {
+            type System = <$name::System as WithScalar<$size>>::Over<Fused>;
+            static SYSTEM: std::sync::LazyLock<System> =
+                std::sync::LazyLock::new(|| $name::prepared().with_scalar().expect("the same constants"));
+            let state = unsafe { (*state).map(Fused::from_f64) };
+            let found = guen::System::rhs(&*SYSTEM, Fused::from_f64(0.0), &state);
+            unsafe { *rates = found.map(Fused::to_f64) };
+        }
     };
 }
 
-served!(bicycle, 11);
-served!(quadruped, 36);
-served!(humanoid, 60);
+served!(bicycle, bicycle_fused, 11);
+served!(quadruped, quadruped_fused, 36);
+served!(humanoid, humanoid_fused, 60);
