@@ -4,11 +4,13 @@
 //! turned once. Where joints of a link are about other axes than its own, the link is given axes in which they are
 //! coordinate axes, or lie in coordinate planes, if a turn about its own joint's axis does it (`shifts`).
 
+use std::collections::BTreeMap;
+
 use super::rotations::{
     Matrix, Shift, Vector, applied_back, further, product, rotation, rotation_by, simplified, transposed,
 };
 use super::shifts::{Turned, coordinate_axis, joint_axes, shortest, upright};
-use crate::algebra::ExprId;
+use crate::algebra::{AngleParts, ExprId, Rational};
 use crate::motion::graph::{FrameId, SystemGraph, Turn};
 use crate::workbench::Workbench;
 
@@ -33,10 +35,22 @@ pub(super) struct DeclaredTurn {
     pub(super) spin: Vector,
 }
 
+/// A turn about one axis over any number of joints: from the oldest axes from which on all are about it.
+#[derive(Clone, PartialEq, Eq)]
+struct Whole {
+    root: usize,
+    axis: usize,
+    /// The terms of the angle, by symbol: a sum of sums is no other angle.
+    angle: AngleParts,
+    shift: Option<Shift>,
+}
+
 /// All axes, and which of them each frame has.
 pub(in crate::motion) struct AllAxes {
     /// The world's first.
     pub(in crate::motion) list: Vec<Axes>,
+    /// The whole turn of each of them, as it is declared; none where it is no turn about an axis.
+    wholes: Vec<Option<Whole>>,
     /// The axes of each frame, and the constant matrix that leads from components in them to those in the frame.
     frames: Vec<(usize, Option<Matrix>)>,
     /// The turns of general axes as they are declared.
@@ -48,6 +62,7 @@ impl AllAxes {
     pub(super) fn new(bench: &mut Workbench, system: &SystemGraph) -> Option<Self> {
         let mut all = AllAxes {
             list: vec![Axes { parent: 0, turned: Turned::World }],
+            wholes: vec![None],
             frames: vec![(0, None)],
             general: Vec::new(),
         };
@@ -71,7 +86,7 @@ impl AllAxes {
                         let back = transposed(base);
                         product(bench, &back, matrix)
                     });
-                    let place = all.push(parent, Turned::By { matrix, spin: *spin });
+                    let place = all.push(parent, Turned::By { matrix, spin: *spin }, None);
                     all.general.push(DeclaredTurn { axes: place, against: parent, matrix, spin: *spin });
                     (place, None)
                 }
@@ -81,9 +96,34 @@ impl AllAxes {
         Some(all)
     }
 
-    fn push(&mut self, parent: usize, turned: Turned) -> usize {
+    fn push(&mut self, parent: usize, turned: Turned, whole: Option<Whole>) -> usize {
         self.list.push(Axes { parent, turned });
+        self.wholes.push(whole);
         self.list.len() - 1
+    }
+
+    /// The axes that are turned about an axis of a parent: those that are turned so already, by joints one after the other or by the sum of
+    /// their angles at once, or new ones.
+    fn joint(
+        &mut self,
+        bench: &mut Workbench,
+        parent: usize,
+        axis: usize,
+        (angle, shift): (ExprId, Option<Shift>),
+    ) -> usize {
+        let own = bench.graph.linear_parts(angle);
+        let whole = match &self.wholes[parent] {
+            Some(before) if before.axis == axis => {
+                let shift = match (before.shift, shift) {
+                    (Some(before), Some(shift)) => Some(further(bench, before, shift)),
+                    (before, shift) => before.or(shift),
+                };
+                Whole { root: before.root, axis, angle: joined(before.angle.iter().chain(&own)), shift }
+            }
+            _ => Whole { root: parent, axis, angle: joined(own.iter()), shift },
+        };
+        let known = self.wholes.iter().position(|known| known.as_ref() == Some(&whole));
+        known.unwrap_or_else(|| self.push(parent, about(bench, axis, angle, shift), Some(whole)))
     }
 
     /// Axes of a frame that is turned about a constant vector of the parent's axes, and further by a constant angle.
@@ -106,7 +146,7 @@ impl AllAxes {
                         Turned::By { matrix, .. } => matrix,
                         Turned::World => continue,
                     };
-                    parent = self.push(parent, turned);
+                    parent = self.push(parent, turned, None);
                     base = Some(base.map_or(turn, |base| product(bench, &base, &turn)));
                 }
                 (axis, false)
@@ -134,7 +174,7 @@ impl AllAxes {
                 (own, shift)
             }
         };
-        let place = self.push(parent, about(bench, axis, whole, shift));
+        let place = self.joint(bench, parent, axis, (whole, shift));
         Some((place, base.and_then(|base| simplified(bench, base))))
     }
 
@@ -208,6 +248,16 @@ impl AllAxes {
         }
         place == other
     }
+}
+
+/// The terms of a sum of angles, each symbol once, in one order.
+fn joined<'a>(terms: impl Iterator<Item = &'a (ExprId, Rational)>) -> AngleParts {
+    let mut sum: BTreeMap<ExprId, Rational> = BTreeMap::new();
+    for (e, c) in terms {
+        let slot = sum.entry(*e).or_default();
+        *slot = &*slot + c;
+    }
+    sum.into_iter().filter(|(_, c)| !c.is_zero()).collect()
 }
 
 pub(super) fn about(bench: &mut Workbench, axis: usize, angle: ExprId, shift: Option<Shift>) -> Turned {
