@@ -102,14 +102,15 @@ impl AllAxes {
         self.list.len() - 1
     }
 
-    /// The axes that are turned about an axis of a parent: those that are turned so already, by joints one after the other or by the sum of
-    /// their angles at once, or new ones.
+    /// The axes that are turned about an axis of a parent: new ones, or where bodies have places along them those that are turned so already, by
+    /// joints one after the other or by the sum of their angles at once.
     fn joint(
         &mut self,
         bench: &mut Workbench,
         parent: usize,
         axis: usize,
         (angle, shift): (ExprId, Option<Shift>),
+        has_places: bool,
     ) -> usize {
         let own = bench.graph.linear_parts(angle);
         let whole = match &self.wholes[parent] {
@@ -122,7 +123,8 @@ impl AllAxes {
             }
             _ => Whole { root: parent, axis, angle: joined(own.iter()), shift },
         };
-        let known = self.wholes.iter().position(|known| known.as_ref() == Some(&whole));
+        let is_known = |known: &Option<Whole>| has_places && known.as_ref() == Some(&whole);
+        let known = self.wholes.iter().position(is_known);
         known.unwrap_or_else(|| self.push(parent, about(bench, axis, angle, shift), Some(whole)))
     }
 
@@ -174,7 +176,12 @@ impl AllAxes {
                 (own, shift)
             }
         };
-        let place = self.joint(bench, parent, axis, (whole, shift));
+        let frame = system.id(index);
+        // A direction alone is short along axes of its own: the heading of a wheel is a turn against the world.
+        let has_places = system.bodies.iter().any(|body| {
+            body.center.as_ref().is_some_and(|center| center.terms.iter().any(|(other, _)| *other == frame))
+        });
+        let place = self.joint(bench, parent, axis, (whole, shift), has_places);
         Some((place, base.and_then(|base| simplified(bench, base))))
     }
 
