@@ -4,7 +4,7 @@
 //! turned once. Where joints of a link are about other axes than its own, the link is given axes in which they are
 //! coordinate axes, or lie in coordinate planes, if a turn about its own joint's axis does it (`shifts`).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::rotations::{
     Matrix, Shift, Vector, applied_back, further, product, rotation, rotation_by, simplified, transposed,
@@ -51,6 +51,8 @@ pub(in crate::motion) struct AllAxes {
     pub(in crate::motion) list: Vec<Axes>,
     /// The whole turn of each of them, as it is declared; none where it is no turn about an axis.
     wholes: Vec<Option<Whole>>,
+    /// The frames along which bodies have places.
+    with_places: BTreeSet<usize>,
     /// The axes of each frame, and the constant matrix that leads from components in them to those in the frame.
     frames: Vec<(usize, Option<Matrix>)>,
     /// The turns of general axes as they are declared.
@@ -60,9 +62,12 @@ pub(in crate::motion) struct AllAxes {
 impl AllAxes {
     /// The axes of a graph's frames; `None` where a joint is about an axis of constants that may point anywhere.
     pub(super) fn new(bench: &mut Workbench, system: &SystemGraph) -> Option<Self> {
+        let places =
+            system.bodies.iter().filter_map(|body| body.center.as_ref()).flat_map(|place| &place.terms);
         let mut all = AllAxes {
             list: vec![Axes { parent: 0, turned: Turned::World }],
             wholes: vec![None],
+            with_places: places.map(|(frame, _)| frame.index()).collect(),
             frames: vec![(0, None)],
             general: Vec::new(),
         };
@@ -176,11 +181,8 @@ impl AllAxes {
                 (own, shift)
             }
         };
-        let frame = system.id(index);
         // A direction alone is short along axes of its own: the heading of a wheel is a turn against the world.
-        let has_places = system.bodies.iter().any(|body| {
-            body.center.as_ref().is_some_and(|center| center.terms.iter().any(|(other, _)| *other == frame))
-        });
+        let has_places = self.with_places.contains(&index);
         let place = self.joint(bench, parent, axis, (whole, shift), has_places);
         Some((place, base.and_then(|base| simplified(bench, base))))
     }
