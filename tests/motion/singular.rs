@@ -166,7 +166,7 @@ mechanical_system! {
     }
 }
 
-/// What the angle of the table does not change is a constant, and no function whose roundings grow with it.
+/// A function of the domain in which the angle of the table cancels is a constant: it has no roundings that grow with the angle.
 #[test]
 fn a_constant_on_a_turning_table_is_none_of_time() {
     assert!(on_table::DOMAIN.is_empty(), "{:?}", on_table::DOMAIN);

@@ -210,7 +210,7 @@ fn a_fixed_value_lies_between_the_limits() {
     assert_eq!(fixed("fix e = -1;"), outside("e"));
     assert_eq!(fixed("fix k = -4;"), outside("k"));
     assert_eq!(fixed("fix k = 20, most = 15;"), outside("k"));
-    // What the limit is follows from the program.
+    // The program may give another value to the constants in the limit, or to what is fixed.
     for fixes in ["fix k = 20;", "fix k = 20, most = 30;", "fix turn = 90, a = 1/2, e = 0;", "fix a[0] = e;"]
     {
         assert!(fixed(fixes).is_empty(), "{fixes}: {:?}", fixed(fixes));

@@ -132,7 +132,7 @@ fn rows_of_velocities_that_follow_where_positions_hold_do_not_count() {
         });
         assert!(lines.contains("second is no form: it follows from "), "{lines}");
     }
-    // What depends everywhere, or contradicts, is a mistake.
+    // A row that follows from others everywhere, or contradicts them, is a mistake.
     for second in ["dot(z) - r*sin(a)*dot(x) - t", "dot(a) - dot(b)", "dot(z) - r*sin(b)*dot(x) - t - 1"] {
         fault(&wheels(second, ""));
     }

@@ -22,7 +22,7 @@ struct Falling {
     rooted: Rooted,
     /// The height at which the root ends.
     ends: f64,
-    /// What is taken from it.
+    /// The number that is subtracted from the root.
     less: f64,
 }
 

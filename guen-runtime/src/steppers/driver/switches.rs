@@ -106,7 +106,7 @@ impl<R: Real> Switches<R> {
     }
 
     /// The time within a step at which a function comes near to zero, or goes through it and back, although it has the same sign at the ends.
-    /// What it evaluates is not counted.
+    /// The evaluations of the search are not in the statistics.
     pub(super) fn nearest<S: System<R, N> + ?Sized, const N: usize>(
         &mut self,
         system: &S,
