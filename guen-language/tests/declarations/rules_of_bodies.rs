@@ -304,3 +304,20 @@ fn a_quaternion_that_is_strained_and_turned_has_a_short_reaction() {
     // Found by bodies 479; where it is projected it has the derivatives of the energy in it.
     assert!(operations < 700, "{operations}");
 }
+
+/// Two frames of the world that one angle turns about different axes are not turned alike, and bodies have places along both.
+#[test]
+fn one_angle_about_two_axes_turns_two_frames() {
+    assert_by_bodies(
+        "system Arms {
+            constants { m > 0, k > 0, I > 0, l > 0, g = 9.81 }
+            coordinates { q, p }
+            let Z = rot_z(q); let X = rot_x(q); let Y = X*rot_y(p);
+            bodies {
+                first { mass: m, inertia: diag(I, 2*I, 3*I), center: l*Z.x, orientation: Z }
+                second { mass: k, inertia: diag(2*I, I, 3*I), center: l*X.y + l*Y.x, orientation: Y }
+            }
+            gravity = vec(0, -g, 0);
+        }",
+    );
+}
