@@ -5,7 +5,7 @@ use super::graph::Graph;
 use super::id::{ExprId, SymbolId};
 use super::map::FastMap;
 use super::node::Node;
-use super::symbol::Roles;
+use super::support::Support;
 
 /// A direction `sum v_k d/dx_k` in the space of symbols, with what was differentiated along it so far.
 ///
@@ -22,7 +22,7 @@ use super::symbol::Roles;
 #[derive(Clone, Debug)]
 pub struct Flow {
     images: FastMap<SymbolId, ExprId>,
-    roles: Roles,
+    moved: Support,
     memo: FastMap<ExprId, ExprId>,
     keeps: bool,
 }
@@ -30,14 +30,14 @@ pub struct Flow {
 impl Flow {
     /// The direction that moves each symbol at the given rate and leaves all others fixed.
     pub fn new(graph: &Graph, rates: impl IntoIterator<Item = (ExprId, ExprId)>) -> Self {
-        let mut flow =
-            Flow { images: FastMap::default(), roles: Roles::NONE, memo: FastMap::default(), keeps: false };
-        for (symbol, rate) in rates {
-            if let Some(symbol) = graph.as_symbol(symbol)
+        let (images, memo) = (FastMap::default(), FastMap::default());
+        let mut flow = Flow { images, moved: Support::default(), memo, keeps: false };
+        for (e, rate) in rates {
+            if let Some(symbol) = graph.as_symbol(e)
                 && !graph.is_zero(rate)
             {
                 flow.images.insert(symbol, rate);
-                flow.roles = flow.roles.or(Roles::of(graph.symbol_info(symbol).role));
+                flow.moved = flow.moved.or(graph.support(e));
             }
         }
         flow
@@ -55,14 +55,14 @@ impl Flow {
 
     /// The derivative of an expression along this direction.
     pub fn of(&mut self, graph: &mut Graph, e: ExprId) -> ExprId {
-        if !graph.roles(e).meets(self.roles) {
+        if !self.moved.meets(graph.support(e)) {
             return graph.zero();
         }
         if let Some(known) = self.memo.get(&e) {
             return *known;
         }
         let pending =
-            graph.reachable(&[e], |id| !graph.roles(id).meets(self.roles) || self.memo.contains_key(&id));
+            graph.reachable(&[e], |id| !self.moved.meets(graph.support(id)) || self.memo.contains_key(&id));
         for id in pending {
             let derivative = self.step(graph, id);
             self.memo.insert(id, derivative);

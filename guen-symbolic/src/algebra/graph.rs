@@ -8,6 +8,7 @@ use super::id::{ExprId, SymbolId, mix};
 use super::map::{FastMap, spread};
 use super::node::{Node, content_of};
 use super::search::{Search, sort_ids};
+use super::support::Support;
 use super::symbol::{Role, Roles, SignBound, Symbol};
 use super::{Function, Rational};
 
@@ -74,7 +75,7 @@ pub(super) const COSINES: u8 = 4;
 pub struct Graph {
     pub(crate) nodes: Vec<Node>,
     keys: Vec<u64>,
-    roles: Vec<Roles>,
+    supports: Vec<Support>,
     depths: Vec<u32>,
     // What is known of sums and products by their looks, see the constants.
     flags: Vec<u8>,
@@ -162,7 +163,12 @@ impl Graph {
 
     /// Returns the kinds of symbol that occur in an expression.
     pub fn roles(&self, id: ExprId) -> Roles {
-        self.roles[id.index()]
+        self.support(id).roles()
+    }
+
+    /// The symbols below a node.
+    pub(crate) fn support(&self, id: ExprId) -> Support {
+        self.supports[id.index()]
     }
 
     /// The value, if the expression is a number.
@@ -199,7 +205,7 @@ impl Graph {
         self.symbols.push(Symbol { name: name.to_owned(), role, bound });
         // The key is the place in the declaration, not the name: renaming must not change rounding.
         let key = mix(mix(0x5300 + role as u64) ^ u64::from(ordinal));
-        let node = self.push(Node::Symbol(id), key, Roles::of(role), 0);
+        let node = self.push(Node::Symbol(id), key, Support::of_symbol(Roles::of(role), ordinal), 0);
         self.symbol_nodes.push(node);
         node
     }
@@ -344,17 +350,19 @@ impl Graph {
             _ => false,
         };
         let depth = |child: &ExprId| self.depths[child.index()];
-        let (roles, below) = match &node {
+        let (support, below) = match &node {
             Node::Symbol(_) | Node::Sum { .. } | Node::Product(_) => {
                 unreachable!("symbols, sums and products are made elsewhere")
             }
-            Node::Number(_) | Node::Pi | Node::Undefined => (Roles::NONE, 0),
-            Node::Function(_, x) | Node::Kept(x) => (self.roles(*x), depth(x)),
-            Node::Multivariate(_, arguments) => arguments
-                .iter()
-                .fold((Roles::NONE, 0), |(roles, below), e| (roles.or(self.roles(*e)), below.max(depth(e)))),
+            Node::Number(_) | Node::Pi | Node::Undefined => (Support::default(), 0),
+            Node::Function(_, x) | Node::Kept(x) => (self.support(*x), depth(x)),
+            Node::Multivariate(_, arguments) => {
+                arguments.iter().fold((Support::default(), 0), |(all, below), e| {
+                    (all.or(self.support(*e)), below.max(depth(e)))
+                })
+            }
         };
-        self.push(node, key, roles, below)
+        self.push(node, key, support, below)
     }
 
     /// The identifier of a sum with at least one term, in the graph's order.
@@ -368,16 +376,16 @@ impl Graph {
         if let Some(id) = self.lookup(key, same) {
             return id;
         }
-        let (mut roles, mut depth) = (Roles::NONE, 0);
+        let (mut support, mut depth) = (Support::default(), 0);
         let mut index = 0;
         while index < terms.len() {
             let child = terms[index].0.0 as usize;
-            roles = roles.or(self.roles[child]);
+            support = support.or(self.supports[child]);
             depth = depth.max(self.depths[child]);
             index += 1;
         }
         let primitive = content_of(&constant, &terms).is_one();
-        let id = self.push(Node::Sum { constant, terms: terms.into_boxed_slice() }, key, roles, depth);
+        let id = self.push(Node::Sum { constant, terms: terms.into_boxed_slice() }, key, support, depth);
         if primitive {
             self.flags[id.index()] = PRIMITIVE;
         }
@@ -391,12 +399,12 @@ impl Graph {
         if let Some(id) = self.lookup(key, |node| is_product(node, &factors)) {
             return id;
         }
-        let (mut roles, mut depth, mut flags) = (Roles::NONE, 0, 0);
+        let (mut support, mut depth, mut flags) = (Support::default(), 0, 0);
         let mut index = 0;
         while index < factors.len() {
             let (base, e) = factors[index];
             let child = base.0 as usize;
-            roles = roles.or(self.roles[child]);
+            support = support.or(self.supports[child]);
             depth = depth.max(self.depths[child]);
             match self.nodes[child] {
                 Node::Function(Function::Sin, _) if e >= 2 => flags |= SINE_SQUARED,
@@ -405,7 +413,7 @@ impl Graph {
             }
             index += 1;
         }
-        let id = self.push(Node::Product(factors.into_boxed_slice()), key, roles, depth);
+        let id = self.push(Node::Product(factors.into_boxed_slice()), key, support, depth);
         self.flags[id.index()] = flags;
         id
     }
@@ -473,13 +481,13 @@ impl Graph {
         None
     }
 
-    fn push(&mut self, node: Node, key: u64, roles: Roles, below: u32) -> ExprId {
+    fn push(&mut self, node: Node, key: u64, support: Support, below: u32) -> ExprId {
         let id = ExprId(self.nodes.len() as u32);
         self.depths.push(below + 1);
         self.flags.push(0);
         self.nodes.push(node);
         self.keys.push(key);
-        self.roles.push(roles);
+        self.supports.push(support);
         if self.slots.len() < 2 * self.nodes.len() {
             self.slots = vec![0; (4 * self.nodes.len()).next_power_of_two()];
             (0..self.nodes.len()).for_each(|index| self.place(index));

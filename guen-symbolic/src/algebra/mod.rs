@@ -20,6 +20,7 @@ mod ranges;
 mod rational;
 mod search;
 mod substitute;
+mod support;
 mod symbol;
 
 pub(crate) use base_angles::{AngleParts, BaseAngles};

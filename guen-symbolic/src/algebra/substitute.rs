@@ -5,6 +5,7 @@ use super::graph::Graph;
 use super::id::ExprId;
 use super::map::FastMap;
 use super::node::Node;
+use super::support::Support;
 
 /// A simultaneous replacement of expressions (usually symbols) by others, with what was replaced so far.
 ///
@@ -21,32 +22,55 @@ use super::node::Node;
 #[derive(Clone, Debug, Default)]
 pub struct Substitution {
     images: FastMap<ExprId, ExprId>,
+    // What is replaced, so far as its symbols are not looked up yet.
+    added: Vec<ExprId>,
+    // The symbols in what is replaced.
+    replaced: Support,
+    // Whether something without symbols is replaced, which may be anywhere.
+    everywhere: bool,
 }
 
 impl Substitution {
     /// Replaces the first of each pair by the second.
     pub fn new(pairs: impl IntoIterator<Item = (ExprId, ExprId)>) -> Self {
-        Substitution { images: pairs.into_iter().collect() }
+        let images: FastMap<ExprId, ExprId> = pairs.into_iter().collect();
+        let added = images.iter().map(|(from, _)| *from).collect();
+        Substitution { images, added, ..Substitution::default() }
     }
 
     /// Adds a replacement; expressions replaced before keep their images.
     pub fn add(&mut self, from: ExprId, to: ExprId) {
         self.images.insert(from, to);
+        self.added.push(from);
     }
 
     /// The expression with everything replaced; replacements are not looked into again.
     pub fn of(&mut self, graph: &mut Graph, e: ExprId) -> ExprId {
-        let pending = graph.reachable(&[e], |id| self.images.contains_key(&id));
+        for from in std::mem::take(&mut self.added) {
+            self.replaced = self.replaced.or(graph.support(from));
+            self.everywhere |= graph.support(from).is_empty();
+        }
+        let pending =
+            graph.reachable(&[e], |id| !self.may_replace_in(graph, id) || self.images.contains_key(&id));
         for id in pending {
             let image = self.step(graph, id);
             self.images.insert(id, image);
         }
-        self.images[&e]
+        self.image(e)
+    }
+
+    /// Whether something that is replaced may occur in an expression.
+    fn may_replace_in(&self, graph: &Graph, e: ExprId) -> bool {
+        self.everywhere || self.replaced.meets(graph.support(e))
+    }
+
+    fn image(&self, e: ExprId) -> ExprId {
+        self.images.get(&e).copied().unwrap_or(e)
     }
 
     fn step(&self, graph: &mut Graph, id: ExprId) -> ExprId {
         let mut same = true;
-        graph.visit_children(id, |child| same = same && self.images[&child] == child);
+        graph.visit_children(id, |child| same = same && self.image(child) == child);
         if same {
             return id;
         }
@@ -54,18 +78,18 @@ impl Substitution {
             Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined => id,
             Node::Sum { constant, terms } => {
                 let mut terms: Vec<_> =
-                    terms.iter().map(|(term, c)| (self.images[term], c.clone())).collect();
+                    terms.iter().map(|(term, c)| (self.image(*term), c.clone())).collect();
                 terms.push((graph.number(constant), Rational::ONE));
                 graph.linear(&terms)
             }
             Node::Product(factors) => {
-                let factors: Vec<_> = factors.iter().map(|(base, e)| (self.images[base], *e)).collect();
+                let factors: Vec<_> = factors.iter().map(|(base, e)| (self.image(*base), *e)).collect();
                 graph.product(&factors)
             }
-            Node::Function(function, x) => graph.function(function, self.images[&x]),
-            Node::Kept(x) => graph.keep(self.images[&x]),
+            Node::Function(function, x) => graph.function(function, self.image(x)),
+            Node::Kept(x) => graph.keep(self.image(x)),
             Node::Multivariate(function, arguments) => {
-                let arguments: Vec<_> = arguments.iter().map(|e| self.images[e]).collect();
+                let arguments: Vec<_> = arguments.iter().map(|e| self.image(*e)).collect();
                 graph.multivariate(function, &arguments)
             }
         }

@@ -4,7 +4,7 @@
 //! `x_0 = t`, `xi_0^0 = 1`: no derivative of the inverse is needed. Coefficients are computed when they are
 //! asked for, each once: twenty coordinates have four thousand of them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Forms, Operators};
 use crate::algebra::{ExprId, Flow};
@@ -18,6 +18,8 @@ pub struct Brackets {
     degrees: usize,
     // For each form the components of its exterior derivative that are not zero, `p < q`.
     curls: Vec<Vec<(usize, usize, ExprId)>>,
+    // For each form whether each of `X_0..X_n` moves a coordinate that its exterior derivative is over.
+    touched: Vec<Vec<bool>>,
     coefficients: BTreeMap<(usize, usize, usize), ExprId>,
     // The least cost of a coefficient that has no normal form.
     beyond: Option<u64>,
@@ -30,7 +32,7 @@ impl Brackets {
         let mut partials: Vec<Flow> =
             (0..=n).map(|p| Flow::partial(&bench.graph, forms.variable(p))).collect();
         let mut beyond = None;
-        let curls = (0..n)
+        let curls: Vec<Vec<(usize, usize, ExprId)>> = (0..n)
             .map(|t| {
                 let mut curl: BTreeMap<(usize, usize), ExprId> = BTreeMap::new();
                 for q in 0..=n {
@@ -57,9 +59,18 @@ impl Brackets {
                     .collect()
             })
             .collect();
+        let moves = |j: usize, p: usize| match (j, p) {
+            (_, 0) => j == 0,
+            _ => !bench.graph.is_zero(operators.xi[j][p - 1]),
+        };
+        let touched = |curl: &Vec<(usize, usize, ExprId)>| {
+            let over: BTreeSet<usize> = curl.iter().flat_map(|(p, q, _)| [*p, *q]).collect();
+            (0..operators.xi.len()).map(|j| over.iter().any(|p| moves(j, *p))).collect()
+        };
         Brackets {
             operators: operators.clone(),
             degrees: forms.degrees,
+            touched: curls.iter().map(touched).collect(),
             curls,
             coefficients: BTreeMap::new(),
             beyond: None,
@@ -78,7 +89,8 @@ impl Brackets {
 
     /// `C_ijt`: `i`, `j` from 0, `t` from 1, as in the paper.
     pub fn coefficient(&mut self, bench: &mut Workbench, i: usize, j: usize, t: usize) -> ExprId {
-        if i == j || self.curls[t - 1].is_empty() {
+        let touched: &[bool] = &self.touched[t - 1];
+        if i == j || !touched[i] || !touched[j] {
             return bench.graph.zero();
         }
         if i > j {
@@ -92,13 +104,21 @@ impl Brackets {
         for (p, q, curl) in &self.curls[t - 1] {
             let (ip, iq) = (self.component(bench, i, *p), self.component(bench, i, *q));
             let (jp, jq) = (self.component(bench, j, *p), self.component(bench, j, *q));
+            let vanish = |a, b| bench.graph.is_zero(a) || bench.graph.is_zero(b);
+            if vanish(ip, jq) && vanish(iq, jp) {
+                continue;
+            }
             let (forward, backward) = (bench.graph.mul(ip, jq), bench.graph.mul(iq, jp));
             let area = bench.graph.sub(forward, backward);
             terms.push(bench.graph.mul(*curl, area));
         }
-        let sum = bench.graph.sum(terms);
-        let sum = bench.graph.neg(sum);
-        let coefficient = bench.tidy_alike(sum, &mut self.beyond);
+        let coefficient = if terms.is_empty() {
+            bench.graph.zero()
+        } else {
+            let sum = bench.graph.sum(terms);
+            let sum = bench.graph.neg(sum);
+            bench.tidy_alike(sum, &mut self.beyond)
+        };
         self.coefficients.insert((i, j, t), coefficient);
         coefficient
     }

@@ -11,16 +11,11 @@ pub(in crate::motion) fn rests(bench: &mut Workbench, system: &Mechanics, frame:
         return true;
     }
     let forms = &system.forms;
+    let by_time = bench.partial(e, forms.time);
+    let gradient: Vec<ExprId> = forms.coordinates.iter().map(|x| bench.partial(e, *x)).collect();
     (0..=forms.len()).filter(|j| system.holonomic.iter().all(|h| h.form + 1 != *j)).all(|j| {
-        let mut terms: Vec<ExprId> = Vec::new();
-        if j == 0 {
-            terms.push(Flow::partial(&bench.graph, forms.time).of(&mut bench.graph, e));
-        }
-        for (x, xi) in forms.coordinates.iter().zip(&frame.operators.xi[j]) {
-            let slope = Flow::partial(&bench.graph, *x).of(&mut bench.graph, e);
-            terms.push(bench.graph.mul(*xi, slope));
-        }
-        let rate = bench.graph.sum(terms);
+        let rate = bench.dot(&frame.operators.xi[j], &gradient);
+        let rate = if j == 0 { bench.graph.add(by_time, rate) } else { rate };
         bench.is_seen_to_vanish(rate)
     })
 }

@@ -66,6 +66,9 @@ impl Restriction {
         let e = self.with_even_roots(bench, e);
         let mut found = normal(bench, e)?;
         for (function, value) in &self.constants {
+            if !bench.graph.support(*function).meets(bench.graph.support(found)) {
+                continue;
+            }
             for _ in 0..POWERS_OF_CONSTANTS {
                 let quotient = bench.graph.product(&[(found, 1), (*function, -1), (*value, 1)]);
                 let Some(quotient) = normal(bench, quotient) else { break };

@@ -23,6 +23,9 @@ pub(super) fn normal(bench: &mut Workbench, restriction: &mut Restriction, e: Ex
 }
 
 fn normal_written_out(bench: &mut Workbench, restriction: &mut Restriction, e: ExprId) -> Option<ExprId> {
+    if bench.graph.is_zero(e) {
+        return Some(e);
+    }
     let open = written_out(bench, e);
     restriction.normal(bench, open, &mut |bench, e| normal_form(&mut bench.graph, e, &COMPONENT))
 }
