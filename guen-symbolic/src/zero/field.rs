@@ -195,15 +195,19 @@ pub(crate) fn eliminate(rows: &mut [Vec<u64>]) -> Vec<usize> {
         let Some(found) = (top..rows.len()).find(|&i| rows[i][column] != 0) else { continue };
         rows.swap(top, found);
         let scale = inverse(rows[top][column]).expect("a pivot");
-        for value in &mut rows[top][column..] {
-            *value = mul(*value, scale);
+        // Rows of forms are sparse, most of them have one entry.
+        let mut entries: Vec<(usize, u64)> = Vec::new();
+        for (place, value) in rows[top].iter_mut().enumerate().skip(column) {
+            if *value != 0 {
+                *value = mul(*value, scale);
+                entries.push((place, *value));
+            }
         }
-        let pivot_row = rows[top].clone();
         for (i, row) in rows.iter_mut().enumerate() {
             let factor = row[column];
             if i != top && factor != 0 {
-                for (value, pivot) in row[column..].iter_mut().zip(&pivot_row[column..]) {
-                    *value = sub(*value, mul(factor, *pivot));
+                for (place, pivot) in &entries {
+                    row[*place] = sub(row[*place], mul(factor, *pivot));
                 }
             }
         }
@@ -247,9 +251,49 @@ pub(crate) fn solve(rows: &[Vec<u64>], right: &[u64]) -> Option<Vec<u64>> {
     Some(solution)
 }
 
+/// The inverse of a symmetric matrix; `None` if there is none. Rows with few entries come first: of those that a frame carries each
+/// has its own and those of the frame, and pivots of the frame would fill all of them.
+pub(crate) fn inverse_of_symmetric(rows: &[Vec<u64>]) -> Option<Vec<Vec<u64>>> {
+    let n = rows.len();
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by_key(|i| rows[*i].iter().filter(|value| **value != 0).count());
+    let unit = |i: usize| (0..n).map(move |j| u64::from(i == j));
+    let extended = order
+        .iter()
+        .enumerate()
+        .map(|(i, row)| order.iter().map(|j| rows[*row][*j]).chain(unit(i)).collect());
+    let mut extended: Vec<Vec<u64>> = extended.collect();
+    let pivots = eliminate(&mut extended);
+    if pivots.last().is_some_and(|last| *last >= n) {
+        return None;
+    }
+    let mut inverse = vec![vec![0; n]; n];
+    for (row, i) in extended.iter().zip(&order) {
+        for (value, j) in row[n..].iter().zip(&order) {
+            inverse[*i][*j] = *value;
+        }
+    }
+    Some(inverse)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn symmetric_matrices_are_inverted() {
+        // An arrow, whose head comes first.
+        let rows = vec![vec![7, 1, 2, 3], vec![1, 5, 0, 0], vec![2, 0, 4, 0], vec![3, 0, 0, 9]];
+        let inverse = inverse_of_symmetric(&rows).expect("an inverse");
+        for (i, row) in rows.iter().enumerate() {
+            // The inverse is symmetric, too.
+            for (j, column) in inverse.iter().enumerate() {
+                let product = row.iter().zip(column).fold(0, |sum, (a, b)| add(sum, mul(*a, *b)));
+                assert_eq!(product, u64::from(i == j));
+            }
+        }
+        assert_eq!(inverse_of_symmetric(&[vec![1, 2], vec![2, 4]]), None);
+    }
 
     #[test]
     fn the_prime_is_safe() {

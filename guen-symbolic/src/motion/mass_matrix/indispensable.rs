@@ -4,6 +4,8 @@
 //! motion: everything may be divided by the constant, whatever is declared of its sign, and `prepare` refuses zero. For a
 //! chain these are the mass of its last particle and the lengths of its links.
 
+use std::collections::BTreeSet;
+
 use crate::algebra::{ExprId, FastMap, Node, Role, SignBound, SymbolId};
 use crate::motion::quasi_velocities::velocity_forms::VelocityPartials;
 use crate::motion::thresholds::VALUES_AT_POINTS;
@@ -199,6 +201,8 @@ struct At {
     values: Vec<u64>,
     components: Vec<Vec<(usize, u64)>>,
     mass: Vec<Vec<u64>>,
+    /// The inverse of the mass matrix, if there is one.
+    inverse: Option<Vec<Vec<u64>>>,
 }
 
 impl At {
@@ -213,7 +217,8 @@ impl At {
         for (weight, (_, [u, v])) in values.iter().zip(&energy.terms) {
             add_products(&mut mass, *weight, &components[*u], &components[*v]);
         }
-        Some(At { sample, values, components, mass })
+        let inverse = field::inverse_of_symmetric(&mass);
+        Some(At { sample, values, components, mass, inverse })
     }
 
     /// Whether the mass matrix is singular where a constant is zero; not where it has no value there.
@@ -240,18 +245,42 @@ impl At {
             at = end;
         }
         let mut mass = self.mass.clone();
+        let mut touched: BTreeSet<usize> = BTreeSet::new();
+        let mut add = |weight: u64, first: &[(usize, u64)], second: &[(usize, u64)]| {
+            add_products(&mut mass, weight, first, second);
+            touched.extend(first.iter().chain(second).map(|(s, _)| *s));
+        };
         for (term, (_, [u, v])) in energy.terms.iter().enumerate() {
             let (old, new) = (self.values[term], values[term]);
             if old == new && changed[*u].is_none() && changed[*v].is_none() {
                 continue;
             }
             let [first, second] = [u, v].map(|form| &self.components[*form]);
-            add_products(&mut mass, field::neg(old), first, second);
+            add(field::neg(old), first, second);
             let [first, second] =
                 [u, v].map(|form| changed[*form].as_ref().unwrap_or(&self.components[*form]));
-            add_products(&mut mass, new, first, second);
+            add(new, first, second);
         }
-        field::rank(&mass) < mass.len()
+        self.is_singular_with(&mass, &touched.into_iter().collect::<Vec<_>>())
+    }
+
+    /// Whether a mass matrix is singular that differs from that of the point in the entries of some parameters alone: for the difference `D`
+    /// of these, `det(M + D) = det(M) det(1 + D M^-1)`, and the second determinant is that of their rows and columns.
+    fn is_singular_with(&self, mass: &[Vec<u64>], touched: &[usize]) -> bool {
+        let Some(inverse) = &self.inverse else { return field::rank(mass) < mass.len() };
+        let differences = touched.iter().map(|s| {
+            touched.iter().map(|t| field::sub(mass[*s][*t], self.mass[*s][*t])).collect::<Vec<u64>>()
+        });
+        let own = differences.enumerate().map(|(place, difference)| {
+            let entry = |(other, t): (usize, &usize)| {
+                let unit = u64::from(place == other);
+                let products = difference.iter().zip(touched).map(|(d, s)| field::mul(*d, inverse[*s][*t]));
+                products.fold(unit, field::add)
+            };
+            touched.iter().enumerate().map(entry).collect::<Vec<u64>>()
+        });
+        let own: Vec<Vec<u64>> = own.collect();
+        field::rank(&own) < own.len()
     }
 }
 
