@@ -1,7 +1,8 @@
-//! Functions of the coordinates: which of them an expression depends on, and what it is on the constraints.
+//! Functions of the coordinates: which of them an expression depends on, what it is on the constraints, and which belong together.
 
 pub(super) mod constancy;
 pub(super) mod dependence;
+pub(super) mod parts;
 pub(super) mod relative_angles;
 pub(super) mod restriction;
 pub(super) mod symmetry;

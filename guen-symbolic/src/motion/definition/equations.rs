@@ -80,7 +80,8 @@ pub(in crate::motion) fn forms(
     let sources = [&by_projection.forces[..l], &by_definition.forces[..l]];
     let mut lists: Vec<Vec<ExprId>> = Vec::new();
     lists.extend(sources.iter().find_map(|forces| normal_forces(bench, system, forces)));
-    if lists.is_empty() || weighted_cost(&bench.graph, sources[0]) <= FURTHER_FORMS {
+    let own = weighted_cost(&bench.graph, sources[0]);
+    if lists.iter().all(|list| own <= FURTHER_FORMS.max(weighted_cost(&bench.graph, list))) {
         lists.push(sources[0].to_vec());
     }
     lists.into_iter().map(|forces| MotionEquations { mass: mass.clone(), forces }).collect()

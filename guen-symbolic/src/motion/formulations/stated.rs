@@ -8,6 +8,7 @@ use super::other_parameters::base_parameters::{Change, InBaseParameters};
 use super::other_parameters::spins;
 use crate::algebra::ExprId;
 use crate::geometry::MANY_COORDINATES;
+use crate::motion::coordinates::parts::joints_of_one_part;
 use crate::motion::coordinates::restriction;
 use crate::motion::definition::equations::forms;
 use crate::motion::definition::projection::{self, Projected};
@@ -18,7 +19,7 @@ use crate::motion::quasi_velocities::velocity_forms::VelocityPartials;
 use crate::motion::thresholds::{
     ALL_WAYS, COUPLED_COORDINATES, MASS_PRODUCTS, MULTIPLIED_PARAMETERS, MULTIPLIED_VELOCITIES, OTHER_WAYS,
 };
-use crate::motion::{Frame, FrameNode, KineticTerm, Mechanics, MotionEquations};
+use crate::motion::{Frame, KineticTerm, Mechanics, MotionEquations};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -261,18 +262,11 @@ fn promises_least(cost: u64, least: u64) -> bool {
     cost > ALL_WAYS && cost <= least || cost > OTHER_WAYS && 2 * cost <= 3 * least
 }
 
-/// Whether many frames turn, about several axes: multiplied out, each brings a factor.
+/// Whether many frames of one part turn, about several axes: multiplied out, each brings a factor.
 fn is_large(bench: &Workbench, system: &Mechanics) -> bool {
-    let structure = &system.structure;
-    let moves = |frame: &FrameNode| match &frame.turn {
-        Turn::About { angle, .. } => !bench.graph.roles(*angle).is_constant(),
-        Turn::General { .. } => true,
-    };
-    let joints = structure.frames().iter().skip(1).filter(|frame| moves(frame));
-    let mut axes: Vec<_> = structure
-        .frames()
+    let frames: Vec<_> = system.structure.frames().iter().skip(1).collect();
+    let mut axes: Vec<_> = frames
         .iter()
-        .skip(1)
         .map(|frame| match &frame.turn {
             Turn::About { axis, .. } => Some(*axis),
             Turn::General { .. } => None,
@@ -280,5 +274,6 @@ fn is_large(bench: &Workbench, system: &Mechanics) -> bool {
         .collect();
     axes.dedup();
     (axes.len() > 1 || axes.contains(&None))
-        && system.forms.degrees.min(joints.count()) >= MULTIPLIED_PARAMETERS
+        && system.forms.degrees.min(frames.len()) >= MULTIPLIED_PARAMETERS
+        && joints_of_one_part(bench, system) >= MULTIPLIED_PARAMETERS
 }
