@@ -39,7 +39,7 @@ pub(super) fn report(model: &mut Model<'_>, error: DerivationError, faults: &mut
             );
             faults.report(
                 Fault::new(model.declaration.name.span(), text)
-                    .note("beyond this number a system has no constraints and no bodies that turn, its kinetic energy is that of particles, each of which moves relative to few others, and its energies have few roots")
+                    .note("beyond this number a system has no constraints and no bodies that turn, and its kinetic energy is that of particles that move by themselves, or relative to few others with few roots in the energies")
                     .help("declare fewer coordinates, or particles in their place"),
             );
         }

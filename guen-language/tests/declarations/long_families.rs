@@ -72,8 +72,11 @@ fn equations_of_a_chain_grow_with_the_square_of_its_links() {
     assert!(whole.operations < 2.1 * half.operations, "{} {}", half.operations, whole.operations);
 }
 
+/// The centre and the inertia of a slender rod.
+const SLENDER: &str = "center: tip[i] - l/2*turn[i].x, inertia: diag(0, J, J)";
+
 /// Rods of which each is turned against the one before it by some joints.
-fn rods(n: usize, coordinates: &str, joints: &str) -> Size {
+fn rods(n: usize, coordinates: &str, joints: &str, body: &str) -> Size {
     size(&format!(
         "pub system Rods {{
             count n = {n};
@@ -85,7 +88,7 @@ fn rods(n: usize, coordinates: &str, joints: &str) -> Size {
             for i in 1..n {{ let tip[i] = tip[i-1] + l*turn[i].x; }}
             bodies {{
                 for i in 0..n {{
-                    rod[i] {{ mass: m, center: tip[i] - l/2*turn[i].x, inertia: diag(0, J, J), orientation: turn[i] }}
+                    rod[i] {{ mass: m, {body}, orientation: turn[i] }}
                 }}
             }}
             gravity = vec(0, -g, 0);
@@ -97,20 +100,91 @@ fn rods(n: usize, coordinates: &str, joints: &str) -> Size {
 /// A place is written along turns by the sums of the angles, an orientation by one joint after the other: the same axes.
 #[test]
 fn a_rod_on_a_hinge_costs_what_any_other_costs() {
-    let [short, middle, long] = [6, 40, 200].map(|n| rods(n, "q[n]", "rot_z(q[i])"));
+    let [short, middle, long] = [6, 40, 200].map(|n| rods(n, "q[n]", "rot_z(q[i])", SLENDER));
     assert!(middle.operations < 63.0 * 40.0, "{}", middle.operations);
     assert!(long.operations < 68.0 * 200.0, "{}", long.operations);
     assert!(short.has_mass && middle.has_mass && !long.has_mass);
 }
 
-/// Thirty rods on two hinges each have fewer parameters than the size from which equations are not written out, and equations that are too
-/// much work.
+/// Thirty bodies of any inertia on two hinges each have fewer parameters than the size from which equations are not written out, and
+/// equations that are too much work.
 #[test]
 fn bodies_whose_equations_are_too_much_work_have_rates() {
-    let [written, work] = [10, 30].map(|n| rods(n, "q[n], p[n]", "rot_z(q[i])*rot_y(p[i])"));
+    let of_any_inertia =
+        "center: tip[i] + turn[i]*vec(-l/2, l/3, l/5), inertia: sym(J, J/2, J/3, J/5, J/7, J/11)";
+    let [written, work] = [10, 30].map(|n| rods(n, "q[n], p[n]", "rot_z(q[i])*rot_y(p[i])", of_any_inertia));
     assert!(written.has_mass && !work.has_mass);
     assert!(work.report.contains("not written out: of 60 parameters"), "{}", work.report);
     assert!(work.operations < 1.2 * 3.0 * written.operations, "{}", work.operations);
+}
+
+/// Parts that springs alone join cost what each costs by itself, and are no more work for being many.
+#[test]
+fn parts_that_only_forces_couple_cost_what_each_costs() {
+    let bodies = |n: usize, kind: &str| {
+        size(&format!(
+            "pub system Parts {{
+                count n = {n};
+                constants {{ m > 0, I > 0, r > 0, k, g = 9.81 }}
+                coordinates {{ x[n], y[n], {z} qw[n], qx[n], qy[n], qz[n] }}
+                for i in 0..n {{ let turn[i] = quaternion(qw[i], qx[i], qy[i], qz[i]); let p[i] = vec(x[i], y[i], {height}); }}
+                holonomic {{ for i in 0..n {{ length[i]: qw[i]^2 + qx[i]^2 + qy[i]^2 + qz[i]^2 = 1; }} }}
+                bodies {{ for i in 0..n {{ body[i] {{ mass: m, inertia: {inertia}, center: p[i], orientation: turn[i] }} }} }}
+                parameters {{ for i in 0..n {{ {parameters} }} }}
+                constraints {{ {rolling} }}
+                potential_energy = sum(i in 1..n: k/2*inner(p[i] - p[i-1], p[i] - p[i-1]));
+                gravity = vec(0, 0, -g);
+            }}",
+            z = if kind == "free" { "z[n]," } else { "" },
+            height = if kind == "free" { "z[i]" } else { "r" },
+            inertia = if kind == "free" { "diag(I, 2*I, 5/2*I)" } else { "diag(I, I, I)" },
+            parameters = if kind == "free" {
+                "v[i] = dot(p[i]); w[i] = angular_velocity_body(turn[i]);"
+            } else {
+                "w[i] = angular_velocity(turn[i]);"
+            },
+            rolling = if kind == "free" {
+                String::new()
+            } else {
+                let row = |a: &str| {
+                    format!("roll_{a}[i]: body[i].velocity_at(p[i] - vec(0, 0, r)).{a} = 0;")
+                };
+                format!("for i in 0..n {{ {} {} }}", row("x"), row("y"))
+            },
+        ))
+    };
+    for (kind, each) in [("free", 64.0), ("rolling", 48.0)] {
+        let [few, many] = [4, 16].map(|n| bodies(n, kind));
+        assert!(few.operations < each * 4.0 && many.operations < each * 16.0, "{kind}: {}", many.operations);
+        assert!(few.has_mass && many.has_mass);
+    }
+}
+
+/// A net of particles with a root for each spring: no point modulo the prime has all of them.
+#[test]
+fn nets_of_particles_have_as_many_springs_as_they_need() {
+    let net = |n: usize| {
+        size(&format!(
+            "pub system Net {{
+                count n = {n};
+                constants {{ m > 0, k >= 0, l > 0, g = 9.81 }}
+                coordinates {{ x[n, n], y[n, n], z[n, n] }}
+                for i in 0..n {{ for j in 0..n {{ let p[i, j] = vec(x[i, j], y[i, j], z[i, j]); }} }}
+                particles {{ for i in 0..n {{ for j in 0..n {{ m at p[i, j]; }} }} }}
+                potential_energy = sum(i in 1..n: sum(j in 0..n: k/2*(norm(p[i, j] - p[i-1, j]) - l)^2))
+                    + sum(i in 0..n: sum(j in 1..n: k/2*(norm(p[i, j] - p[i, j-1]) - l)^2));
+                gravity = vec(0, 0, -g);
+            }}"
+        ))
+    };
+    let [small, large] = [6, 10].map(net);
+    let springs = |n: f64| 2.0 * n * (n - 1.0);
+    assert!(
+        large.operations / springs(10.0) < 1.05 * small.operations / springs(6.0),
+        "{}",
+        large.operations
+    );
+    assert!(small.has_mass && !large.has_mass);
 }
 
 /// Each joint moves all links beyond it; in the rates of the base angles it moves one.

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 use self::composed::Composed;
 use super::constraint_forces::{self, Differences, Edge};
-use super::multibody;
+use super::{MULTIPLIED_OUT, multibody};
 use crate::algebra::{ExprId, FastMap, Node, Rational, gradient};
 use crate::motion::definition::projection::{Curl, Square, squares};
 use crate::motion::definition::proof::Definition;
@@ -89,7 +89,7 @@ pub(super) fn rates(
     {
         if let Some(solution) = uncoupled(bench, &differences, generalised_forces) {
             let rates = [&frame.velocities[..], &solution.accelerations].concat();
-            found.push(("multiplied out", rates, solution));
+            found.push((MULTIPLIED_OUT, rates, solution));
         }
         if !without_equations {
             composed = composed::equations(bench, frame, &differences, etas);
@@ -108,7 +108,8 @@ pub(super) fn rates(
     }
     found.sort_by_key(|(_, rates, _)| weighted_cost(&bench.graph, rates));
     for (name, rates, solution) in found {
-        if !definition.is_solved_by(bench, (system, frame), &rates)? {
+        // Residues may lack too many roots to decide. Rows that are multiplied out are taken where real points show no difference.
+        if !definition.is_solved_by(bench, (system, frame), &rates)? && name != MULTIPLIED_OUT {
             continue;
         }
         if without_equations {
