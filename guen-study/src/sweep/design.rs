@@ -79,8 +79,9 @@ impl Distribution {
     /// The number at this part of the distribution, inside of the unit interval.
     fn at(&self, part: f64) -> f64 {
         match self {
-            Self::Uniform { low, high } => low + part * (high - low),
-            Self::LogUniform { low, high } => low * Real::exp(part * Real::ln(high / low)),
+            // Rounding brings no number out of its range.
+            Self::Uniform { low, high } => between(*low, *high, part).min(*high).max(*low),
+            Self::LogUniform { low, high } => between_quotients(*low, *high, part).min(*high).max(*low),
             Self::Normal { mean, deviation } => mean + deviation * normal::quantile(part),
             Self::Choice(values) => {
                 let place = (part * values.len() as f64) as usize;
@@ -96,16 +97,36 @@ impl Distribution {
                 (!is_range(*low, *high) || *low <= 0.0).then_some(DesignFault::LogarithmicRange)
             }
             Self::Normal { mean, deviation } => {
-                (!mean.is_finite() || !deviation.is_finite() || *deviation < 0.0)
-                    .then_some(DesignFault::Normal)
+                let is_finite = (mean.abs() + MOST_DEVIATIONS * deviation).is_finite();
+                (!is_finite || *deviation < 0.0).then_some(DesignFault::Normal)
             }
             Self::Choice(values) => of_values(values),
         }
     }
 }
 
+/// More standard deviations than any point is away from its mean.
+const MOST_DEVIATIONS: f64 = 9.0;
+
 fn is_range(low: f64, high: f64) -> bool {
-    low <= high && (high - low).is_finite()
+    low <= high && low.is_finite() && high.is_finite()
+}
+
+/// The number at a part of the way between two ends, whose distance may be beyond the largest number.
+fn between(low: f64, high: f64, part: f64) -> f64 {
+    let way = high - low;
+    if way.is_finite() { low + part * way } else { low * (1.0 - part) + high * part }
+}
+
+/// The number at a part of the way between two ends in logarithms. Their quotient may be beyond the largest number: then its fourth root is
+/// taken four times.
+fn between_quotients(low: f64, high: f64, part: f64) -> f64 {
+    let quotient = high / low;
+    if quotient.is_finite() {
+        return low * Real::exp(part * Real::ln(quotient));
+    }
+    let root = Real::exp(part * (Real::ln(high) - Real::ln(low)) / 4.0);
+    [root; 4].into_iter().fold(low, |product, root| product * root)
 }
 
 fn of_values(values: &[f64]) -> Option<DesignFault> {
@@ -352,6 +373,34 @@ mod tests {
         }
         let one = Design::grid().linear("b", 4.0, 9.0, 1).design();
         assert_eq!(one.point(0), Some(vec![4.0]));
+    }
+
+    #[test]
+    fn ranges_may_be_as_wide_as_numbers_are() {
+        let first = |grid: Grid, k| grid.design().point(k).unwrap()[0];
+        let wide = |k| first(Design::grid().linear("a", -1.5e308, 1.5e308, 5), k);
+        assert_eq!([wide(1), wide(2), wide(3)], [-0.75e308, 0.0, 0.75e308]);
+        for (low, high) in [(1e-200, 1e200), (5e-324, f64::MAX)] {
+            let middle = first(Design::grid().logarithmic("a", low, high, 3), 1);
+            assert!((middle / (low.sqrt() * high.sqrt()) - 1.0).abs() < 1e-12, "{middle}");
+        }
+        let drawn = Design::random(400, 1)
+            .log_uniform("a", 1e-200, 1e200)
+            .uniform("b", f64::MIN, f64::MAX)
+            .log_uniform("c", 1.9, 1.9_f64.next_up())
+            .uniform("d", -1e-17, 1.0);
+        let design = drawn.design().checked().unwrap();
+        let points: Vec<Vec<f64>> = (0..400).filter_map(|k| design.point(k)).collect();
+        let ranges = [(1e-200, 1e200), (f64::MIN, f64::MAX), (1.9, 1.9_f64.next_up()), (-1e-17, 1.0)];
+        for (axis, (low, high)) in ranges.into_iter().enumerate() {
+            assert!(points.iter().all(|point| low <= point[axis] && point[axis] <= high), "{axis}");
+        }
+        let mean = points.iter().map(|point| point[0].log10()).sum::<f64>() / 400.0;
+        assert!(mean.abs() < 25.0, "{mean}");
+        // The far points of a normal distribution count as well as those that are usual.
+        let normal = |deviation| Design::random(1, 1).normal("a", 0.0, deviation).design().checked();
+        assert!(normal(1e307).is_ok());
+        assert!(matches!(normal(1e308), Err(SweepError::Design { fault: DesignFault::Normal, .. })));
     }
 
     #[test]

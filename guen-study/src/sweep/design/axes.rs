@@ -1,8 +1,6 @@
 //! The axes of grids and of drawn points, as they are declared.
 
-use guen_runtime::Real;
-
-use super::{Design, Distribution, Kind, Method};
+use super::{Design, Distribution, Kind, Method, between, between_quotients};
 
 /// The axes of a grid, of which the last one changes fastest.
 #[derive(Clone, Debug, Default)]
@@ -22,7 +20,7 @@ impl Grid {
 
     /// Adds an axis of `count` values at equal distances, both ends included.
     pub fn linear(self, name: impl Into<String>, low: f64, high: f64, count: usize) -> Self {
-        let step = |k: usize| low + (high - low) * (k as f64 / (count - 1) as f64);
+        let step = |k: usize| between(low, high, k as f64 / (count - 1) as f64);
         let values = (0..count).map(|k| {
             if k == 0 {
                 low
@@ -37,7 +35,7 @@ impl Grid {
 
     /// Adds an axis of `count` values with equal quotients, both ends included, which have to be positive.
     pub fn logarithmic(self, name: impl Into<String>, low: f64, high: f64, count: usize) -> Self {
-        let step = |k: usize| low * Real::exp(Real::ln(high / low) * (k as f64 / (count - 1) as f64));
+        let step = |k: usize| between_quotients(low, high, k as f64 / (count - 1) as f64);
         let values = (0..count).map(|k| {
             if k == 0 {
                 low

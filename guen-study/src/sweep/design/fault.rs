@@ -20,7 +20,7 @@ pub enum DesignFault {
     Range,
     /// The ends of a logarithmic range are not positive and finite, or in the wrong order.
     LogarithmicRange,
-    /// The mean of a normal distribution is not finite, or its deviation is negative or not finite.
+    /// The mean of a normal distribution is not finite, or its deviation is negative, or so large that values of it are not finite.
     Normal,
     /// A row of a table does not have one number for each name.
     Rows,
@@ -39,7 +39,7 @@ impl fmt::Display for DesignFault {
             Self::Range => "the range needs finite ends, the lower one first",
             Self::LogarithmicRange => "a logarithmic range needs positive, finite ends, the lower one first",
             Self::Normal => {
-                "a normal distribution needs a finite mean and a deviation that is finite and not negative"
+                "a normal distribution needs a finite mean and a deviation that is not negative, and nine of them have to be finite"
             }
             Self::Rows => "every row needs one number for each name",
             Self::TooManyAxes => "the sequence of Sobol has no more than 21201 axes",
