@@ -8,6 +8,9 @@ use std::path::{Path, PathBuf};
 use super::design::{DesignFault, UnknownAxis, UnknownEntry};
 use crate::error::StudyError;
 
+/// The manifest, of which an error says something else than of other files.
+pub(super) const MANIFEST: &str = "sweep.txt";
+
 /// The reason why a sweep was refused or could not go on. Nothing of what it has finished is lost: a further run into the same folder
 /// goes on.
 #[derive(Debug)]
@@ -36,7 +39,7 @@ pub enum SweepError {
         /// The name.
         name: String,
     },
-    /// A histogram needs a range with finite ends, the lower one first, and one bin at least.
+    /// A histogram needs a range with finite ends, the lower one first, and 1 to 1,000,000 bins; a column has one histogram at most.
     Histogram {
         /// The column.
         column: String,
@@ -141,7 +144,7 @@ impl fmt::Display for SweepError {
             Self::DuplicateColumn { name } => write!(f, "two columns of the rows are called `{name}`"),
             Self::Histogram { column } => write!(
                 f,
-                "the histogram of `{column}` needs a range with finite ends, the lower one first, and a bin"
+                "the histogram of `{column}` needs a range with finite ends, the lower one first, and 1 to 1000000 bins; a column has one at most"
             ),
             Self::Part { part, parts } => {
                 write!(f, "there is no part {part} of {parts}: parts count from 0 to one below their number")
@@ -167,11 +170,14 @@ impl fmt::Display for SweepError {
                 "`{}` has this sweep in {found} parts, not in {asked}: go on with {found}, or take another folder",
                 path.display()
             ),
-            Self::Corrupt { path, reason } => write!(
-                f,
-                "`{}` is damaged: {reason}; a further run of its part computes anew what is missing",
-                path.display()
-            ),
+            Self::Corrupt { path, reason } => {
+                write!(f, "`{}` is damaged: {reason}; ", path.display())?;
+                f.write_str(if path.file_name().is_some_and(|name| name == MANIFEST) {
+                    "remove it and run again: what is finished is kept"
+                } else {
+                    "a further run of its part computes anew what is missing"
+                })
+            }
             Self::Unfinished { first, missing } => {
                 write!(f, "{missing} motions are not computed yet, the first of them is motion {first}")
             }

@@ -5,15 +5,13 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::block::Block;
-use super::error::{SweepError, at};
+use super::error::{MANIFEST, SweepError, at};
 use super::plan::{DECLARATION, Plan};
 use super::record::Record;
 use super::rows::Rows;
 use super::sha256::Sha256;
 use crate::file::replace_file;
 
-/// The manifest.
-pub(super) const MANIFEST: &str = "sweep.txt";
 /// The line of the manifest that says how many parts there are.
 const PARTS: &str = "parts: ";
 /// The names of files that locks are taken on: of the folder, and of the workers that compute chunks there for another process.
@@ -68,7 +66,10 @@ pub(super) fn parts_of(path: &Path, text: &str, plan: &Plan) -> Result<u64, Swee
             let found = lines.next().unwrap_or_default();
             (found != expected).then(|| (found.to_owned(), expected.to_owned()))
         });
-        let (found, expected) = other.unwrap_or_default();
+        let (found, expected) = other.ok_or_else(|| SweepError::Corrupt {
+            path: path.to_path_buf(),
+            reason: "its lines end otherwise, or there are others behind them",
+        })?;
         let digest = |line: &str| Some(line.strip_prefix(DECLARATION)?.strip_prefix(": ")?.to_owned());
         if let (Some(found), Some(expected)) = (digest(&found), digest(&expected)) {
             return Err(SweepError::OtherDeclaration { path: path.to_path_buf(), found, expected });

@@ -130,8 +130,9 @@ where
                 let first = all.next().unwrap_or_default();
                 let (low, high) = all.fold((first.clone(), first), |(mut low, mut high), values| {
                     for (k, x) in values.into_iter().enumerate() {
-                        low[k] = low[k].min(x);
-                        high[k] = high[k].max(x);
+                        // Of zeros with and without a sign the order is theirs, not that of the processor.
+                        low[k] = if x.total_cmp(&low[k]).is_lt() { x } else { low[k] };
+                        high[k] = if x.total_cmp(&high[k]).is_gt() { x } else { high[k] };
                     }
                     (low, high)
                 });

@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::Sweep;
-use super::error::{SweepError, at};
-use super::folder::{MANIFEST, content, parts_of, record_file, write_manifest};
+use super::error::{MANIFEST, SweepError, at};
+use super::folder::{content, parts_of, record_file, write_manifest};
 use super::plan::Plan;
 use super::record::Record;
 use super::sha256::Sha256;
@@ -27,8 +27,7 @@ pub(super) fn merge(sweep: &Sweep<'_>, folders: Vec<PathBuf>, into: &Path) -> Re
         let manifest = folder.join(MANIFEST);
         let text = fs::read(&manifest).map_err(at(&manifest))?;
         let parts = parts_of(&manifest, &String::from_utf8_lossy(&text), &plan)?;
-        for part in 0..parts {
-            let path = folder.join(record_file(part, parts));
+        for path in records(&folder, parts)? {
             let Some(text) = content(&path)? else { continue };
             let damaged = |reason| SweepError::Corrupt { path: path.clone(), reason };
             let text = String::from_utf8(text).map_err(|_| damaged("it is no text"))?;
@@ -82,6 +81,20 @@ pub(super) fn merge(sweep: &Sweep<'_>, folders: Vec<PathBuf>, into: &Path) -> Re
     let sums: String = digests.iter().map(|(digest, name)| format!("{digest}  {name}\n")).collect();
     replace_file(into.join("SHA256SUMS"), |out| out.write_all(sums.as_bytes()))?;
     Ok(Summary::new(whole))
+}
+
+/// The records that a folder has of so many parts, in order. There may be more parts than could be looked for one by one.
+fn records(folder: &Path, parts: u64) -> Result<Vec<PathBuf>, SweepError> {
+    let end = format!("-of-{parts}.txt");
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).map_err(at(folder))? {
+        let name = entry.map_err(at(folder))?.file_name();
+        let number =
+            name.to_str().and_then(|name| name.strip_prefix("part-")?.strip_suffix(&end)?.parse().ok());
+        found.extend(number.filter(|part: &u64| *part < parts));
+    }
+    found.sort_unstable();
+    Ok(found.into_iter().map(|part| folder.join(record_file(part, parts))).collect())
 }
 
 /// Looks whether a file has its digest, and copies it unless it is there.

@@ -186,7 +186,7 @@ impl<'a> Sweep<'a> {
         Self { selected: Some(columns.into_iter().map(Into::into).collect()), ..self }
     }
 
-    /// Keeps a histogram of a column: equal bins between two ends.
+    /// Keeps a histogram of a column: equal bins between two ends, a million at most. A column has one histogram.
     pub fn with_histogram(mut self, column: impl Into<String>, low: f64, high: f64, bins: usize) -> Self {
         self.bins.push((column.into(), Bins { column: 0, low, high, count: bins }));
         self

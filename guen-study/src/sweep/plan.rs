@@ -18,6 +18,8 @@ pub(super) const DECLARATION: &str = "declaration";
 /// The most motions of a chunk, and the chunks that there are below that and above what is worth one, unless a sweep says otherwise.
 const MOST: u64 = 1 << 14;
 const CHUNKS: u64 = 256;
+/// The most bins of a histogram.
+const MOST_BINS: usize = 1_000_000;
 
 /// The plan of a run: columns, chunks and statistics.
 #[derive(Debug)]
@@ -174,13 +176,16 @@ fn chosen(sweep: &Sweep<'_>, axes: &[Column], kept: &[Column]) -> Result<statist
     for (name, own) in &sweep.bins {
         let place = place(name)?;
         let is_range = own.low < own.high && (own.high - own.low).is_finite();
-        if !is_range || own.count == 0 {
+        if !is_range || !(1..=MOST_BINS).contains(&own.count) {
             return Err(SweepError::Histogram { column: name.clone() });
         }
         let column = places.iter().position(|own| *own == place).unwrap_or_else(|| {
             places.push(place);
             places.len() - 1
         });
+        if bins.iter().any(|other: &Bins| other.column == column) {
+            return Err(SweepError::Histogram { column: name.clone() });
+        }
         bins.push(Bins { column, ..own.clone() });
     }
     let columns = places.iter().map(|place| all[*place].clone()).collect();

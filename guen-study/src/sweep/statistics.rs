@@ -319,6 +319,15 @@ impl OfColumn {
 }
 
 impl Bins {
+    /// The upper end of a bin, where the next one begins. Number zero is below the range.
+    fn end(&self, k: usize) -> f64 {
+        match k {
+            0 => self.low,
+            k if k >= self.count => self.high,
+            k => self.low + (self.high - self.low) * (k as f64 / self.count as f64),
+        }
+    }
+
     #[inline]
     fn count(&self, counts: &mut [u64], x: f64) {
         let place = if x < self.low {
@@ -327,7 +336,15 @@ impl Bins {
             self.count + 1
         } else {
             let part = (x - self.low) / (self.high - self.low) * self.count as f64;
-            1 + (part as usize).min(self.count - 1)
+            let mut place = 1 + (part as usize).min(self.count - 1);
+            // Of a number at an end, rounding may have made one beside it.
+            while x < self.end(place - 1) {
+                place -= 1;
+            }
+            while x >= self.end(place) {
+                place += 1;
+            }
+            place
         };
         counts[place] += 1;
     }
@@ -414,21 +431,16 @@ impl ColumnStatistics<'_> {
         self.of().sketch.ranked(rank as u64).map(|found| found.clamp(low, high))
     }
 
-    /// The bins of the column's histogram: the lower and the upper end of each with its count. The first one is below the range and the last
-    /// one above. Empty where none was asked for.
+    /// The bins of the column's histogram: the lower and the upper end of each with its count, of values that are not below the lower and
+    /// below the upper one. The first one is below the range and the last one above. Empty where none was asked for.
     pub fn histogram(&self) -> Vec<(f64, f64, u64)> {
         let Some(bins) = self.plan.bins.iter().find(|bins| bins.column == self.column) else {
             return Vec::new();
         };
-        let end = |k: usize| match k {
-            0 => bins.low,
-            k if k == bins.count => bins.high,
-            k => bins.low + (bins.high - bins.low) * (k as f64 / bins.count as f64),
-        };
         let counts = self.of().bins.iter().enumerate();
         let ends = |k: usize| {
-            let lower = if k == 0 { f64::NEG_INFINITY } else { end(k - 1) };
-            let upper = if k > bins.count { f64::INFINITY } else { end(k) };
+            let lower = if k == 0 { f64::NEG_INFINITY } else { bins.end(k - 1) };
+            let upper = if k > bins.count { f64::INFINITY } else { bins.end(k) };
             (lower, upper)
         };
         counts.map(|(k, count)| (ends(k).0, ends(k).1, *count)).collect()
@@ -543,6 +555,22 @@ mod tests {
             }
             assert_eq!(merged.text(), all.text());
             assert_eq!(Statistics::parse(&plan(3, groups), &all.text()), Some(all));
+        }
+    }
+
+    #[test]
+    fn a_number_at_an_end_is_in_the_bin_that_begins_there() {
+        for (low, high, count) in [(-0.1, 0.7, 35), (0.0, 1.0, 49), (-3.0, 0.3, 1000), (1.0, 1.0 + 1e-15, 9)]
+        {
+            let bins = Bins { column: 0, low, high, count };
+            for k in 0..count {
+                let (x, next) = (bins.end(k), bins.end(k + 1));
+                let mut counts = vec![0; count + 2];
+                [x, next.next_down()].into_iter().for_each(|x| bins.count(&mut counts, x));
+                // Bins of a few roundings may be empty.
+                let expected = if x < next { (k + 1, 2) } else { (0, 0) };
+                assert!(x == next || counts[expected.0] == expected.1, "{low} {high} {count}: {k}");
+            }
         }
     }
 

@@ -8,6 +8,7 @@ use super::{Design, DesignFault, Rows, Sweep, SweepError};
 
 #[cfg(feature = "parquet")]
 mod parquet;
+mod refused;
 mod shared;
 
 /// `q'' = sqrt(q^2 - 1) - k sin q`: it runs away, or fails where it comes below one.
