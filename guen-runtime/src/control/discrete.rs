@@ -72,8 +72,8 @@ impl<R: Ordered, const N: usize, const M: usize> ZeroOrderHold<R, N, M> {
     ///
     /// [`DiscreteError::NotFinite`].
     pub fn new(linear: &Linearization<R, N, M>, rates: &[R; N], period: R) -> Result<Self, DiscreteError> {
-        /// A period of more than `2^60` time constants overflows anyway.
-        const MOST_DOUBLINGS: u32 = 60;
+        /// More than the exponents of a double: modes that decay may be left for ever.
+        const MOST_DOUBLINGS: u32 = 2200;
         /// Terms of the series: enough for 70 digits.
         const TERMS: i64 = 60;
         /// Doublings after which `Phi` has lost three digits.

@@ -139,8 +139,14 @@ pub fn place<R: Ordered, const N: usize>(
     if !given.into_iter().all(|x| x.is_finite()) {
         return Err(PlaceError::NotFinite);
     }
+    // Without its units: they would decide what is out of reach.
+    let mut balanced = *a;
+    let units = eigenvalues::balance(&mut balanced);
+    let column: [R; N] = core::array::from_fn(|i| column[i] / units[i]);
+    let a = &balanced;
     let tolerance = R::epsilon().to_f64() * N as f64;
-    controllability(linear, tolerance).require().map_err(PlaceError::Uncontrollable)?;
+    let model = Linearization { a: balanced, b: column.map(|x| [x]) };
+    controllability(&model, tolerance).require().map_err(PlaceError::Uncontrollable)?;
     // The same basis as that of `controllability`, all of whose directions are new.
     let mut basis = Basis::new();
     let mut below = [length(&column); N];
@@ -155,7 +161,7 @@ pub fn place<R: Ordered, const N: usize>(
         core::array::from_fn(|i| core::array::from_fn(|j| dot(&basis.vectors[i], &images[j])));
     // e_N^T times a factor for each pole, or for each pair, over the subdiagonal.
     let mut row = [R::zero(); N];
-    row[N - 1] = R::one();
+    row.last_mut().into_iter().for_each(|last| *last = R::one());
     let through = |row: &[R; N]| -> [R; N] {
         core::array::from_fn(|j| (0..N).fold(R::zero(), |sum, i| sum + row[i] * hessenberg[i][j]))
     };
@@ -183,7 +189,8 @@ pub fn place<R: Ordered, const N: usize>(
         row = divided(row);
         row = divided(row);
     }
-    let gain: [R; N] =
-        core::array::from_fn(|j| (0..N).fold(R::zero(), |sum, k| sum + row[k] * basis.vectors[k][j]));
+    let gain: [R; N] = core::array::from_fn(|j| {
+        (0..N).fold(R::zero(), |sum, k| sum + row[k] * basis.vectors[k][j]) / units[j]
+    });
     if gain.iter().all(|x| x.is_finite()) { Ok(gain) } else { Err(PlaceError::NotFinite) }
 }

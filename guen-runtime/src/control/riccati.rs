@@ -65,7 +65,8 @@ pub enum RiccatiError {
     NotFinite,
     /// The weight of the inputs, or the covariance of the measurement, is not symmetric and positive definite.
     NotDefinite,
-    /// The weight of the state, or the covariance of the disturbance, is not symmetric, or has a negative entry on its diagonal.
+    /// The weight of the state, or the covariance of the disturbance, is not symmetric, has a negative entry on its diagonal, or a larger one beside
+    /// it than the diagonal allows.
     NotSemidefinite,
     /// No gain was found that stabilises the model. A mode that does not decay by itself is out of the reach of the inputs
     /// or without weight in the cost; of a filter, it is not measured or nothing disturbs it. Give every such mode a weight.
@@ -120,18 +121,17 @@ pub fn lqr<R: Ordered, const N: usize, const M: usize>(
     q: &[[R; N]; N],
     r: &[[R; M]; M],
 ) -> Result<Regulator<R, N, M>, RiccatiError> {
-    let Linearization { a, b } = linear;
-    let inverse = checked(a, b, q, r)?;
-    let gain_of = |cost: &[[R; N]; N]| product(&product(&inverse, &transpose(b)), cost);
-    let g = symmetric(&product(&product(b, &inverse), &transpose(b)));
+    let model = Balanced::of(linear, q, r)?;
+    let Balanced { a, b, q, r, inverse, g, .. } = &model;
+    let gain_of = |cost: &[[R; N]; N]| product(&product(inverse, &transpose(b)), cost);
     // By the map z -> (z + gamma)/(z - gamma) the left half of the plane becomes the inside of the circle.
-    let gamma = R::from_f64(scale(a) + libm::sqrt(scale(&g) * scale(q)));
-    let first = cayley(a, &g, q, gamma).and_then(doubled).ok_or(RiccatiError::NotStabilizable)?;
+    let gamma = R::from_f64(scale(a) + libm::sqrt(scale(g) * scale(q)));
+    let first = cayley(a, g, q, gamma).and_then(doubled).ok_or(RiccatiError::NotStabilizable)?;
     let residual = |p: &[[R; N]; N], _: &[[R; N]; M]| {
-        let half = product(p, &minus(a, &product(&g, p).map(|row| row.map(|x| x * R::from_ratio(1, 2)))));
+        let half = product(p, &minus(a, &product(g, p).map(|row| row.map(|x| x * R::from_ratio(1, 2)))));
         plus(&plus(&half, &transpose(&half)), q)
     };
-    settled(gain_of(&first), &running_of(q, r), gain_of, residual, |gain, rate| {
+    let found = settled(gain_of(&first), &running_of(q, r), gain_of, residual, |gain, rate| {
         let closed = minus(a, &product(b, gain));
         let gamma = R::from_f64(scale(&closed));
         let shifted = minus(&diagonal([gamma; N]), &closed);
@@ -140,7 +140,8 @@ pub fn lqr<R: Ordered, const N: usize, const M: usize>(
         let step = product(&plus(&diagonal([gamma; N]), &closed), &inverse);
         let rate = product(&transpose(&inverse), &product(rate, &inverse));
         summed(step, rate.map(|row| row.map(|x| x * (gamma + gamma))))
-    })
+    })?;
+    model.in_units(found)
 }
 
 /// The optimal feedback of `x_(k+1) = A x_k + B u_k`, as of a model that [`c2d`](super::c2d) made.
@@ -170,22 +171,23 @@ pub fn dlqr<R: Ordered, const N: usize, const M: usize>(
     q: &[[R; N]; N],
     r: &[[R; M]; M],
 ) -> Result<Regulator<R, N, M>, RiccatiError> {
-    let Linearization { a, b } = linear;
-    let inverse = checked(a, b, q, r)?;
+    let model = Balanced::of(linear, q, r)?;
+    let Balanced { a, b, q, r, g, .. } = &model;
     let gain_of = |cost: &[[R; N]; N]| {
         let forced = product(&transpose(b), cost);
         // Positive definite, as r is: there is always a solution but for overflow.
-        solve(&plus(r, &product(&forced, b)), &product(&forced, a)).unwrap_or([[R::from_f64(f64::NAN); N]; M])
+        solve_definite(&plus(r, &product(&forced, b)), &product(&forced, a))
+            .unwrap_or([[R::from_f64(f64::NAN); N]; M])
     };
-    let g = symmetric(&product(&product(b, &inverse), &transpose(b)));
-    let first = doubled(Pencil { a: *a, g, h: *q }).ok_or(RiccatiError::NotStabilizable)?;
+    let first = doubled(Pencil { a: *a, g: *g, h: *q }).ok_or(RiccatiError::NotStabilizable)?;
     let residual = |p: &[[R; N]; N], gain: &[[R; N]; M]| {
         let ahead = product(&transpose(a), &product(p, &minus(a, &product(b, gain))));
         minus(&plus(&ahead, q), p)
     };
-    settled(gain_of(&first), &running_of(q, r), gain_of, residual, |gain, cost| {
+    let found = settled(gain_of(&first), &running_of(q, r), gain_of, residual, |gain, cost| {
         summed(minus(a, &product(b, gain)), *cost)
-    })
+    })?;
+    model.in_units(found)
 }
 
 /// The steady Kalman filter of `x' = A x + w`, `y = C x + v`.
@@ -249,7 +251,7 @@ pub fn dkalman<R: Ordered, const N: usize, const P: usize>(
     let Regulator { cost, .. } = dlqr(&dual, disturbance, measurement)?;
     let seen = product(c, &cost);
     let innovation = plus(measurement, &product(&seen, &transpose(c)));
-    let gain = solve(&innovation, &seen).ok_or(RiccatiError::NotFinite)?;
+    let gain = solve_definite(&innovation, &seen).ok_or(RiccatiError::NotFinite)?;
     Ok(Observer { gain: transpose(&gain), covariance: cost })
 }
 
@@ -363,31 +365,142 @@ fn running_of<R: Ordered, const N: usize, const M: usize>(
     move |gain| plus(q, &product(&transpose(gain), &product(r, gain)))
 }
 
-/// The inverse of the inputs' weight, after a look at everything that is given.
-fn checked<R: Ordered, const N: usize, const M: usize>(
+/// A model and its weights without their units: states are counted in `states`, inputs in `inputs`, powers of two.
+///
+/// ```text
+/// x = D z        u = S v        A -> D^-1 A D        B -> D^-1 B S        Q -> D Q D        R -> S R S
+/// ```
+struct Balanced<R, const N: usize, const M: usize> {
+    a: [[R; N]; N],
+    b: [[R; M]; N],
+    q: [[R; N]; N],
+    r: [[R; M]; M],
+    /// `R^-1` and `B R^-1 B^T`.
+    inverse: [[R; M]; M],
+    g: [[R; N]; N],
+    states: [R; N],
+    inputs: [R; M],
+}
+
+impl<R: Ordered, const N: usize, const M: usize> Balanced<R, N, M> {
+    /// Looks at everything that is given, and takes the units away.
+    fn of(linear: &Linearization<R, N, M>, q: &[[R; N]; N], r: &[[R; M]; M]) -> Result<Self, RiccatiError> {
+        let Linearization { a, b } = linear;
+        let mut entries =
+            a.iter().flatten().chain(b.iter().flatten()).chain(q.iter().flatten()).chain(r.iter().flatten());
+        if !entries.all(|x| x.is_finite()) {
+            return Err(RiccatiError::NotFinite);
+        }
+        if !is_symmetric(q) || !may_be_semidefinite(q) {
+            return Err(RiccatiError::NotSemidefinite);
+        }
+        if !is_symmetric(r) || !is_definite(r) {
+            return Err(RiccatiError::NotDefinite);
+        }
+        let inputs: [R; M] = core::array::from_fn(|j| power_of_two(-0.5 * exponent(r[j][j])));
+        let r = scaled(r, &inputs, &inputs);
+        let b = scaled(b, &[R::one(); N], &inputs);
+        let inverse = solve(&r, &unit()).ok_or(RiccatiError::NotDefinite)?;
+        let inverse = symmetric(&inverse);
+        let g = symmetric(&product(&product(&b, &inverse), &transpose(&b)));
+        let states = balancing(a, &g, q);
+        let back = states.map(|x| R::one() / x);
+        Ok(Self {
+            a: scaled(a, &back, &states),
+            b: scaled(&b, &back, &[R::one(); M]),
+            q: scaled(q, &states, &states),
+            r,
+            inverse,
+            g: scaled(&g, &back, &back),
+            states,
+            inputs,
+        })
+    }
+
+    /// A regulator of this model in the units of the one that was given.
+    fn in_units(&self, found: Regulator<R, N, M>) -> Result<Regulator<R, N, M>, RiccatiError> {
+        let back = self.states.map(|x| R::one() / x);
+        let (gain, cost) = (scaled(&found.gain, &self.inputs, &back), scaled(&found.cost, &back, &back));
+        let is_finite = gain.iter().flatten().chain(cost.iter().flatten()).all(|x| x.is_finite());
+        if is_finite { Ok(Regulator { gain, cost }) } else { Err(RiccatiError::NotFinite) }
+    }
+}
+
+/// The powers of two `d` for which rows and columns of `[D^-1 A D, D^-1 G D^-1; D Q D, ..]` with one index are about as long.
+fn balancing<R: Ordered, const N: usize>(a: &[[R; N]; N], g: &[[R; N]; N], q: &[[R; N]; N]) -> [R; N] {
+    const SWEEPS: usize = 60;
+    let mut exponents = [0.0; N];
+    for _ in 0..SWEEPS {
+        let mut changed = false;
+        for i in 0..N {
+            // The largest exponent of what grows with `d_i`, and of what shrinks.
+            let (mut up, mut down) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+            for j in 0..N {
+                let [own, other] = [exponents[i], exponents[j]];
+                if i != j {
+                    up = up.max(exponent(a[j][i]) + own - other);
+                    down = down.max(exponent(a[i][j]) + other - own);
+                }
+                up = up.max(exponent(q[i][j]) + own + other);
+                down = down.max(exponent(g[i][j]) - own - other);
+            }
+            // A quarter: what is on the diagonal changes with the square of `d_i`.
+            let step = libm::round((down - up) / 4.0);
+            if step.is_finite() && step != 0.0 {
+                exponents[i] += step;
+                changed = true;
+            }
+        }
+        if !changed {
+            break;
+        }
+    }
+    exponents.map(power_of_two)
+}
+
+/// The binary logarithm of a size; of zero it is below all others.
+fn exponent<R: Ordered>(x: R) -> f64 {
+    libm::log2(x.to_f64().abs())
+}
+
+/// Two to this power, rounded to a whole one; within the range of the real.
+fn power_of_two<R: Ordered>(exponent: f64) -> R {
+    const MOST: f64 = 500.0;
+    let power = R::from_f64(libm::exp2(libm::round(exponent).clamp(-MOST, MOST)));
+    if power.is_finite() && power > R::zero() { power } else { R::one() }
+}
+
+/// A matrix with its rows and columns multiplied.
+fn scaled<R: Ordered, const N: usize, const M: usize>(
+    m: &[[R; M]; N],
+    rows: &[R; N],
+    columns: &[R; M],
+) -> [[R; M]; N] {
+    core::array::from_fn(|i| core::array::from_fn(|j| m[i][j] * rows[i] * columns[j]))
+}
+
+/// Solves with a positive definite matrix, whatever the units of its rows are.
+fn solve_definite<R: Ordered, const N: usize, const M: usize>(
     a: &[[R; N]; N],
     b: &[[R; M]; N],
-    q: &[[R; N]; N],
-    r: &[[R; M]; M],
-) -> Result<[[R; M]; M], RiccatiError> {
-    let mut entries =
-        a.iter().flatten().chain(b.iter().flatten()).chain(q.iter().flatten()).chain(r.iter().flatten());
-    if !entries.all(|x| x.is_finite()) {
-        return Err(RiccatiError::NotFinite);
-    }
-    if !is_symmetric(q) || (0..N).any(|i| q[i][i] < R::zero()) {
-        return Err(RiccatiError::NotSemidefinite);
-    }
-    if !is_symmetric(r) || !is_definite(r) {
-        return Err(RiccatiError::NotDefinite);
-    }
-    solve(r, &unit()).map(|inverse| symmetric(&inverse)).ok_or(RiccatiError::NotDefinite)
+) -> Option<[[R; M]; N]> {
+    let units: [R; N] = core::array::from_fn(|i| power_of_two(-0.5 * exponent(a[i][i])));
+    let right = scaled(b, &units, &[R::one(); M]);
+    Some(scaled(&solve(&scaled(a, &units, &units), &right)?, &units, &[R::one(); M]))
 }
 
 /// Symmetric to a thousand roundings.
 fn is_symmetric<R: Ordered, const N: usize>(m: &[[R; N]; N]) -> bool {
     let skew = largest((0..N).flat_map(|i| (0..i).map(move |j| m[i][j] - m[j][i])));
     skew <= 1e3 * R::epsilon().to_f64() * largest(m.iter().flatten().copied())
+}
+
+/// No entry on the diagonal is negative, and none beside it is larger than the two on the diagonal allow, but for a thousand roundings.
+fn may_be_semidefinite<R: Ordered, const N: usize>(m: &[[R; N]; N]) -> bool {
+    let rounding = 1e3 * R::epsilon().to_f64() * largest(m.iter().flatten().copied());
+    let root = |i: usize| libm::sqrt(m[i][i].to_f64());
+    // Of a negative entry the root is NaN.
+    (0..N).all(|i| (0..=i).all(|j| m[i][j].to_f64().abs() <= root(i) * root(j) * (1.0 + 1e-12) + rounding))
 }
 
 /// Positive definite: all pivots of the elimination are positive.

@@ -5,7 +5,7 @@ use core::fmt;
 
 use crate::linear_algebra::dense::{Basis, dot, largest, length, transpose};
 use crate::numbers::real::Ordered;
-use crate::system::derivatives::linearization::Linearizable;
+use crate::system::derivatives::linearization::{Linearizable, Linearization};
 
 /// The reason why there is no steady motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -122,8 +122,10 @@ pub fn named<const N: usize, const M: usize>(
 /// - What is fixed or drifts stays as in the guess. Directions that no rate depends on stay as well; if any are left
 ///   at the end, there is a family of solutions, and that is reported: a car's steady turns have a speed and a radius,
 ///   and both have to be chosen.
-/// - Steps are halved as long as they do not make the rates smaller, and made as long as they do. A direction counts as one that the rates depend
-///   on if more than `1e-9` of the longest derivative is left of its own beside the others.
+/// - Steps are halved as long as they do not make the rates smaller, and made as long as they do.
+/// - Units decide nothing: rates and unknowns are scaled until the derivatives of each are about one at most. Derivatives that are roundings beside
+///   others of their rate count as none: below `1e-12` of them by a state, below a few roundings by an input. A direction counts as one that the rates
+///   depend on if more than `1e-9` of it is left beside the others.
 ///
 /// ```
 /// use guen_runtime::{Linearizable, Linearization, control::{SteadyError, SteadyMotion, steady}};
@@ -162,7 +164,7 @@ where
     const NEWTON_STEPS: usize = 100;
     const STEP_HALVINGS: usize = 30;
     const INDEPENDENT: f64 = 1e-9;
-    /// Roundings of the largest rate, in units of one or of what the linearisation makes of the state, that count as none.
+    /// Roundings of the largest terms that a rate has had, as the linearisation tells them, that count as none.
     const RATE_ROUNDINGS: f64 = 1e3;
 
     let open = |j: usize| {
@@ -180,31 +182,39 @@ where
     };
     let (mut s, mut u) = (*state, *inputs);
     let mut r = rates(&s, &u);
+    // The largest terms of each rate so far.
+    let mut terms = [0.0; N];
     for _ in 0..NEWTON_STEPS {
         let linear = system.linearization(t, &s, &u);
-        let (by_state, by_input) = (transpose(&linear.a), transpose(&linear.b));
+        let all_finite =
+            linear.a.iter().flatten().chain(linear.b.iter().flatten()).chain(&r).all(|x| x.is_finite());
+        if !all_finite {
+            return Err(SteadyError::NotFinite);
+        }
+        for (i, most) in terms.iter_mut().enumerate().filter(|(i, _)| !request.drifting[*i]) {
+            let products = linear.a[i].iter().zip(&s).chain(linear.b[i].iter().zip(&u)).map(|(x, y)| *x * *y);
+            *most = f64::max(*most, largest(products.chain([r[i]])));
+        }
+        let units = Units::of(&linear, &request.drifting, &open);
+        let (by_state, by_input) = (transpose(&units.scaled.a), transpose(&units.scaled.b));
         let column = |j: usize| {
-            let mut column = *by_state.get(j).or_else(|| by_input.get(j.wrapping_sub(N)))?;
-            for (entry, drifts) in column.iter_mut().zip(&request.drifting) {
-                if *drifts {
-                    *entry = R::zero();
-                }
-            }
-            open(j).then_some(column)
+            let column = by_state.get(j).or_else(|| by_input.get(j.wrapping_sub(N)))?;
+            open(j).then_some(*column)
         };
-        let scale = largest((0..N + M).filter_map(|j| column(j).map(|c| length(&c))));
-        let size = length(&r).to_f64();
-        if !(scale.is_finite() && size.is_finite()) {
+        let without_units = |rates: &[R; N]| core::array::from_fn::<R, N, _>(|i| rates[i] * units.rates[i]);
+        let r_scaled = without_units(&r);
+        let size = length(&r_scaled).to_f64();
+        if !size.is_finite() {
             return Err(SteadyError::NotFinite);
         }
         let mut basis = Basis::<R, N>::new();
-        let order = basis.add_all(N + M, column, INDEPENDENT * scale);
+        let order = basis.add_all(N + M, column, INDEPENDENT);
         let rank = basis.count;
         // R y = -Q^T r, backwards.
         let mut y = [R::zero(); N];
         for k in (0..rank).rev() {
             let q = &basis.vectors[k];
-            let mut rest = -dot(q, &r);
+            let mut rest = -dot(q, &r_scaled);
             let entry = |j: usize| column(order[j]).map_or(R::zero(), |c| dot(q, &c));
             for (j, value) in y.iter().enumerate().take(rank).skip(k + 1) {
                 rest -= entry(j) * *value;
@@ -214,8 +224,12 @@ where
         let moved = |factor: R| {
             let (mut s, mut u) = (s, u);
             for (j, change) in order.iter().zip(&y).take(rank) {
-                let place = if *j < N { &mut s[*j] } else { &mut u[*j - N] };
-                *place += factor * *change;
+                let (place, unit) = if *j < N {
+                    (&mut s[*j], units.states[*j])
+                } else {
+                    (&mut u[*j - N], units.inputs[*j - N])
+                };
+                *place += factor * *change * unit;
             }
             (s, u)
         };
@@ -224,7 +238,7 @@ where
         for _ in 0..STEP_HALVINGS {
             let (trial_s, trial_u) = moved(factor);
             let trial = rates(&trial_s, &trial_u);
-            let new = length(&trial).to_f64();
+            let new = length(&without_units(&trial)).to_f64();
             if new < size * (1.0 - 1e-4 * factor.to_f64()) {
                 accepted = Some((trial_s, trial_u, trial));
                 break;
@@ -235,10 +249,14 @@ where
             Some(next) => (s, u, r) = next,
             // No step makes the rates smaller: what is left of them is rounding, or no zero is near.
             None => {
-                let extent = 1.0 + largest(s.iter().chain(&u).copied());
-                let residual = largest(r.iter().copied());
-                if residual > RATE_ROUNDINGS * R::epsilon().to_f64() * (scale * extent).max(1.0) {
-                    return Err(SteadyError::NotFound { residual });
+                // Where all terms are rounding, as of a car that has come to rest, the rate without its unit tells.
+                let rounding = RATE_ROUNDINGS * R::epsilon().to_f64();
+                let is_left = |i: usize| {
+                    let [rate, without_unit] = [r[i], r_scaled[i]].map(|rate| rate.abs().to_f64());
+                    rate > rounding * terms[i] && without_unit > rounding
+                };
+                if (0..N).any(is_left) {
+                    return Err(SteadyError::NotFound { residual: largest(r.iter().copied()) });
                 }
                 return match unknowns - rank {
                     0 => Ok((s, u)),
@@ -248,4 +266,63 @@ where
         }
     }
     Err(SteadyError::NotFound { residual: largest(r.iter().copied()) })
+}
+
+/// Derivatives without their units, and the powers of two that take them away.
+struct Units<R, const N: usize, const M: usize> {
+    scaled: Linearization<R, N, M>,
+    rates: [R; N],
+    states: [R; N],
+    inputs: [R; M],
+}
+
+impl<R: Ordered, const N: usize, const M: usize> Units<R, N, M> {
+    /// Scales rates and unknowns in turn until the largest derivative of each is about one; rates that drift, and derivatives that are none beside the
+    /// largest of their rate, are zero.
+    fn of(linear: &Linearization<R, N, M>, drifting: &[bool; N], open: &impl Fn(usize) -> bool) -> Self {
+        /// Derivatives by states that are so small beside the others of their rate, and beside all that are open, are roundings; those by
+        /// inputs, which nothing cancels in as a rule, where they are some roundings of the others.
+        const NONE: f64 = 1e-12;
+        const ROUNDINGS: f64 = 4.0;
+        const SWEEPS: usize = 8;
+        let rounding = ROUNDINGS * R::epsilon().to_f64();
+        let rows = || linear.a.iter().zip(&linear.b).zip(drifting).filter(|(_, drifts)| !**drifts);
+        let of_open =
+            rows().flat_map(|((by_state, by_input), _)| by_state.iter().chain(by_input).enumerate());
+        let all = largest(of_open.filter(|(j, _)| open(*j)).map(|(_, x)| *x));
+        let mut scaled = *linear;
+        for ((by_state, by_input), drifts) in scaled.a.iter_mut().zip(&mut scaled.b).zip(drifting) {
+            let most = largest(by_state.iter().chain(by_input.iter()).copied());
+            let is_none = |x: &R, least: f64| *drifts || x.abs().to_f64() <= least;
+            by_state.iter_mut().filter(|x| is_none(x, NONE * most.min(all))).for_each(|x| *x = R::zero());
+            by_input.iter_mut().filter(|x| is_none(x, rounding * most)).for_each(|x| *x = R::zero());
+        }
+        let (mut rates, mut states, mut inputs) = ([R::one(); N], [R::one(); N], [R::one(); M]);
+        for _ in 0..SWEEPS {
+            for (i, rate) in rates.iter_mut().enumerate() {
+                let by_states = scaled.a[i].iter().enumerate().filter(|(j, _)| open(*j));
+                let by_inputs = scaled.b[i].iter().enumerate().filter(|(j, _)| open(N + *j));
+                let up = to_one::<R>(largest(by_states.chain(by_inputs).map(|(_, x)| *x)));
+                scaled.a[i].iter_mut().chain(&mut scaled.b[i]).for_each(|x| *x *= up);
+                *rate *= up;
+            }
+            for (j, state) in states.iter_mut().enumerate() {
+                let up = to_one::<R>(largest(scaled.a.iter().map(|row| row[j])));
+                scaled.a.iter_mut().for_each(|row| row[j] *= up);
+                *state *= up;
+            }
+            for (j, input) in inputs.iter_mut().enumerate() {
+                let up = to_one::<R>(largest(scaled.b.iter().map(|row| row[j])));
+                scaled.b.iter_mut().for_each(|row| row[j] *= up);
+                *input *= up;
+            }
+        }
+        Self { scaled, rates, states, inputs }
+    }
+}
+
+/// The power of two that makes about one of a size; one for zero.
+fn to_one<R: Ordered>(size: f64) -> R {
+    let power = R::from_f64(libm::exp2(-libm::round(libm::log2(size))));
+    if power.is_finite() && power > R::zero() { power } else { R::one() }
 }

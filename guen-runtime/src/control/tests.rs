@@ -312,3 +312,145 @@ fn nothing_is_reached_in_a_model_that_is_no_number() {
         assert_eq!(controllability(&model, 1e-9).rank, 0);
     }
 }
+
+#[test]
+fn units_change_no_feedback() {
+    // A cart that carries a pole, in the units of the first line, and in others: of states, of time, of the push.
+    let a = [[0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0], [0.0, -0.981, 0.0, 0.0], [0.0, 21.582, 0.0, 0.0]];
+    let b = [[0.0], [0.0], [1.0], [-2.0]];
+    let (q, r, c) = ([1.0, 10.0, 0.1, 0.1], 0.01, [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]]);
+    let wanted =
+        [Pole { re: -2.0, im: 1.0 }, Pole { re: -2.0, im: -1.0 }, Pole::real(-5.0), Pole::real(-6.0)];
+    let gains = |[states, [time, push, ..]]: [[f64; 4]; 2]| {
+        let a: Square<4> =
+            core::array::from_fn(|i| core::array::from_fn(|j| a[i][j] * states[i] / states[j] / time));
+        let b: [[f64; 1]; 4] = core::array::from_fn(|i| [b[i][0] * states[i] / push / time]);
+        let linear = Linearization { a, b };
+        let q = diagonal(core::array::from_fn(|i| q[i] / (states[i] * states[i])));
+        let r = [[r / (push * push)]];
+        let poles = wanted.map(|Pole { re, im }| Pole { re: re / time, im: im / time });
+        let discrete = c2d(&linear, 0.01 * time).unwrap();
+        let rows = [
+            lqr(&linear, &q, &r).unwrap().gain[0],
+            dlqr(&discrete, &q, &r).unwrap().gain[0],
+            place(&linear, &poles).unwrap(),
+        ];
+        let c = c.map(|row| core::array::from_fn(|j| row[j] / states[j]));
+        let noise = diagonal(core::array::from_fn(|i| 1e-3 * states[i] * states[i]));
+        let slow = noise.map(|row| row.map(|x| x / time));
+        let columns = [
+            kalman(&a, &c, &slow, &diagonal([1e-4 * time; 2])).unwrap().gain.map(|row| row.map(|x| x * time)),
+            dkalman(&discrete.a, &c, &noise, &diagonal([1e-4; 2])).unwrap().gain,
+        ];
+        let rows = rows.map(|row| core::array::from_fn::<_, 4, _>(|j| row[j] * states[j] / push));
+        (rows, columns.map(|l| core::array::from_fn::<_, 4, _>(|i| l[i].map(|x| x / states[i]))))
+    };
+    let plain = gains([[1.0; 4]; 2]);
+    for units in [
+        [[1e9, 1.0, 1e9, 1.0], [1.0; 4]],
+        [[1e-9, 1.0, 1e-9, 1.0], [1.0; 4]],
+        [[1e12, 1.0, 1.0, 1.0], [1.0, 1e9, 1.0, 1.0]],
+        [[1.0, 1.0, 1e-9, 1e-9], [1e9, 1e-12, 1.0, 1.0]],
+        [[1.0, 1.0, 1e9, 1e9], [1e-9, 1.0, 1.0, 1.0]],
+    ] {
+        let found = gains(units);
+        for (found, plain) in found.0.as_flattened().iter().zip(plain.0.as_flattened()) {
+            assert!((found / plain - 1.0).abs() < 1e-10, "{units:?}: {found} {plain}");
+        }
+        for (found, plain) in found.1.as_flattened().iter().zip(plain.1.as_flattened()) {
+            // The place of the pole and the cart's have little to do with each other.
+            let most = plain.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            assert!(
+                found.iter().zip(plain).all(|(x, y)| (x - y).abs() < 1e-10 * most),
+                "{units:?}: {found:?} {plain:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn quick_oscillators_and_unlike_inputs_have_feedback() {
+    // k_1 = w^2 (sqrt 2 - 1) and k_2 = w (sqrt(1 + 2 (sqrt 2 - 1)) without damping, by the equations of both entries.
+    let root = 2_f64.sqrt();
+    for w in [1.0, 1e6, 1e9, 1e12_f64] {
+        let linear = Linearization { a: [[0.0, 1.0], [-w * w, 0.0]], b: [[0.0], [1.0]] };
+        let [[k1, k2]] = lqr(&linear, &diagonal([1.0, 1.0 / (w * w)]), &[[w.powi(-4)]]).unwrap().gain;
+        assert!((k1 / (w * w * (root - 1.0)) - 1.0).abs() < 1e-12, "{w:e}: {k1}");
+        assert!((k2 / (w * (1.0 + 2.0 * (root - 1.0)).sqrt()) - 1.0).abs() < 1e-12, "{w:e}: {k2}");
+    }
+    // The second input has a billionth of the effect and of the square root of the weight.
+    let linear = Linearization { a: [[0.0, 1.0], [0.0, 0.0]], b: [[0.0, 0.0], [1.0, 1e-9]] };
+    let found = lqr(&linear, &unit(), &diagonal([1.0, 1e-18])).unwrap().gain;
+    let both = lqr(&linear, &unit(), &unit()).unwrap_or_else(|error| panic!("{error}"));
+    assert!(
+        (found[0][0] - 0.5_f64.sqrt()).abs() < 1e-14 && (found[1][0] * 1e-9 - 0.5_f64.sqrt()).abs() < 1e-14
+    );
+    assert!((both.gain[0][0] - 1.0).abs() < 1e-14);
+    // A weight that no sum of squares has.
+    for q in [[[1.0, 2.0], [2.0, 1.0]], [[0.0, 2.0], [2.0, 0.0]]] {
+        assert_eq!(lqr(&linear, &q, &unit()), Err(RiccatiError::NotSemidefinite));
+    }
+    // Of nothing there is nothing to place; and what decays may be left for ever.
+    assert_eq!(place(&Linearization::<f64, 0, 1> { a: [], b: [] }, &[]), Ok([]));
+    let long = c2d(&Linearization { a: [[-1.0]], b: [[2.0]] }, 1e30).unwrap();
+    assert_eq!((long.a, long.b), ([[0.0]], [[2.0]]));
+}
+
+/// A light wheel on a spring and a heavy body with drag that is lifted: `J w' = torque - k q`, `M v' = push - v - M g`.
+struct Unlike {
+    inertia: f64,
+    spring: f64,
+    mass: f64,
+    weight: f64,
+}
+
+impl Linearizable<f64, 4, 2> for Unlike {
+    fn rates(&self, _t: f64, [q, _, w, v]: &[f64; 4], [torque, push]: &[f64; 2]) -> [f64; 4] {
+        [*w, *v, (torque - self.spring * q) / self.inertia, (push - v) / self.mass - self.weight]
+    }
+    fn linearization(&self, _t: f64, _: &[f64; 4], _: &[f64; 2]) -> Linearization<f64, 4, 2> {
+        let mut a = [[0.0; 4]; 4];
+        (a[0][2], a[1][3], a[2][0], a[3][3]) = (1.0, 1.0, -self.spring / self.inertia, -1.0 / self.mass);
+        Linearization { a, b: [[0.0; 2], [0.0; 2], [1.0 / self.inertia, 0.0], [0.0, 1.0 / self.mass]] }
+    }
+}
+
+#[test]
+fn units_decide_no_equilibrium() {
+    let held = |fixed: [bool; 4], inputs| SteadyMotion {
+        drifting: [false; 4],
+        fixed_states: fixed,
+        fixed_inputs: inputs,
+    };
+    for (inertia, spring, mass) in [
+        (1.0, 1.0, 1.0),
+        (1e-10, 1e-7, 1e4),
+        (1e-14, 1e-9, 1.0),
+        (1e10, 1e3, 1e-3),
+        (1e20, 1.0, 1e20),
+        (1e-20, 1e-19, 1.0),
+    ] {
+        let system = Unlike { inertia, spring, mass, weight: 9.81 };
+        let start = [0.5, 3.0, 0.1, 0.2];
+        let both = held([true, true, false, false], [false, false]);
+        let (state, [torque, push]) = steady(&system, 0.0, &start, &[0.0, 0.0], &both).unwrap();
+        assert_eq!(state, [0.5, 3.0, 0.0, 0.0]);
+        assert!((torque / (0.5 * spring) - 1.0).abs() < 1e-14 && (push / (9.81 * mass) - 1.0).abs() < 1e-14);
+        // The place of the wheel by its torque; nothing holds the body but its push, and that of the wheel is a family.
+        let turned = held([false, true, false, false], [true, false]);
+        let (state, _) = steady(&system, 0.0, &start, &[2.0 * spring, 0.0], &turned).unwrap();
+        assert!((state[0] - 2.0).abs() < 1e-14 && state[2..] == [0.0, 0.0]);
+        let open = held([false, true, false, false], [false, false]);
+        assert_eq!(
+            steady(&system, 0.0, &start, &[0.0, 0.0], &open),
+            Err(SteadyError::Family { dimension: 1 })
+        );
+        let dropped = held([true, true, false, false], [false, true]);
+        let error = steady(&system, 0.0, &start, &[0.0, 0.0], &dropped).unwrap_err();
+        assert!(matches!(error, SteadyError::NotFound { residual } if residual > 0.1), "{error}");
+    }
+    // What a half turn leaves of a weight is rounding, though no derivative says so.
+    let system = Unlike { inertia: 1.0, spring: 0.0, mass: 1.0, weight: 9.81 * core::f64::consts::PI.sin() };
+    let none = held([true, true, false, false], [true, true]);
+    assert!(steady(&system, 0.0, &[0.0; 4], &[0.0; 2], &none).is_ok());
+}

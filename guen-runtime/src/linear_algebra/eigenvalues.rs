@@ -65,9 +65,11 @@ fn scale<R: Ordered, const N: usize>(h: &mut [[R; N]; N]) -> [R; 2] {
     powers.map(|power| R::from_f64(libm::exp2(power)))
 }
 
-/// Scales rows and columns by powers of two until those of one index are about as long: units leave the matrix.
-fn balance<R: Ordered, const N: usize>(h: &mut [[R; N]; N]) {
+/// Scales rows and columns by powers of two until those of one index are about as long: units leave the matrix. Returns the numbers that
+/// columns were multiplied by.
+pub(crate) fn balance<R: Ordered, const N: usize>(h: &mut [[R; N]; N]) -> [R; N] {
     const SWEEPS: usize = 30;
+    let mut factors = [R::one(); N];
     for _ in 0..SWEEPS {
         let mut changed = false;
         for i in 0..N {
@@ -84,12 +86,14 @@ fn balance<R: Ordered, const N: usize>(h: &mut [[R; N]; N]) {
                 let (up, down) = (R::from_f64(factor), R::from_f64(factor.recip()));
                 h[i].iter_mut().for_each(|x| *x *= down);
                 h.iter_mut().for_each(|row| row[i] *= up);
+                factors[i] *= up;
             }
         }
         if !changed {
-            return;
+            break;
         }
     }
+    factors
 }
 
 /// A reflection `1 - v v^T/norm` that leaves of a vector its first entry only.
