@@ -45,8 +45,11 @@ pub(super) struct Budget {
 
 impl Budget {
     pub fn new(whole: Duration, show: bool, stop: Stop, clock: Box<dyn Stopwatch>) -> Self {
+        /// A century: whoever gives all the time that there is means no limit, and no sum of times may overflow.
+        const MOST: Duration = Duration::from_secs(100 * 365 * 86_400);
         let progress = show.then(|| Progress::new(0.0, 1.0));
         let started = clock.now();
+        let whole = whole.min(MOST);
         Self { clock, started, whole, progress, stop, cancelled: false, late: false }
     }
 

@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use super::reference::NO_MOTION;
+use super::reference::{NO_ENERGY, NO_MOTION, NO_SCALES};
 use super::report::{StudyReport, Unit};
 use super::row::{Nearby, Row};
 
@@ -83,6 +83,10 @@ pub enum NoChoice {
     NothingMeasured,
     /// There is no motion to measure: the span is empty, or one of its ends or a number of a start is not finite.
     NoMotion,
+    /// The change of the energy was to be measured, and the system keeps none.
+    NoEnergy,
+    /// One of the sizes of [`Study::scales`](super::Study::scales) is not a positive number.
+    NoScales,
     /// There is no reference, so that no error is known: the report has the reason.
     NoReference,
     /// The reference was not checked by a second method, so that no error is certain.
@@ -114,6 +118,8 @@ impl fmt::Display for NoChoice {
         match self {
             Self::NothingMeasured => f.write_str("no setting has a measured error and a measured cost"),
             Self::NoMotion => write!(f, "there is no motion to measure: {NO_MOTION}"),
+            Self::NoEnergy => f.write_str(NO_ENERGY),
+            Self::NoScales => f.write_str(NO_SCALES),
             Self::Unchecked => {
                 f.write_str("the reference was not checked by a second method, so no error is certain")
             }
@@ -284,8 +290,11 @@ impl StudyReport {
     /// The reason why no row at all is certain.
     fn nothing(&self) -> NoChoice {
         let why = self.reference.as_ref().and_then(|reference| reference.failure.as_deref());
-        if self.rows.is_empty() && why == Some(NO_MOTION) {
-            return NoChoice::NoMotion;
+        match why {
+            Some(NO_MOTION) if self.rows.is_empty() => return NoChoice::NoMotion,
+            Some(NO_ENERGY) if self.rows.is_empty() => return NoChoice::NoEnergy,
+            Some(NO_SCALES) if self.rows.is_empty() => return NoChoice::NoScales,
+            _ => {}
         }
         let failed = self.reference.as_ref().is_some_and(|reference| reference.error.is_none());
         let none =

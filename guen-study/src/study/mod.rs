@@ -344,7 +344,8 @@ impl<S, const N: usize> Study<S, N> {
     }
 
     /// Does it. Never fails: what could not be measured is said in the report. Nothing is where the span is empty, or one of its ends or a
-    /// number of a start is not finite ([`NoChoice::NoMotion`]).
+    /// number of a start is not finite ([`NoChoice::NoMotion`]), for the energy of a system that keeps none ([`NoChoice::NoEnergy`]), and in
+    /// sizes that are not positive ([`NoChoice::NoScales`]).
     #[must_use]
     pub fn run(self) -> Trade<N> {
         run::run(self)

@@ -173,6 +173,10 @@ where
 /// The reason why there is no motion to measure.
 pub(super) const NO_MOTION: &str =
     "the span is empty, or one of its ends or a number of a start is not finite";
+/// The reason why there is no change of the energy to measure.
+pub(super) const NO_ENERGY: &str = "the system keeps no energy, so there is no change of one to measure";
+/// The reason why errors are not measured in the sizes that were given.
+pub(super) const NO_SCALES: &str = "a size that errors are to be divided by is not a positive number";
 
 /// The reference, as a report tells it.
 #[derive(Clone, Debug, PartialEq)]
@@ -195,9 +199,9 @@ pub struct ReferenceReport {
 }
 
 impl ReferenceReport {
-    /// Of a study without a motion.
-    pub(super) fn without_motion() -> Self {
+    /// Of a study that has nothing to measure, for this reason.
+    pub(super) fn of_nothing(reason: &str) -> Self {
         let none = || "none".to_owned();
-        Self { method: none(), check: none(), error: None, failure: Some(NO_MOTION.to_owned()), seconds: 0.0 }
+        Self { method: none(), check: none(), error: None, failure: Some(reason.to_owned()), seconds: 0.0 }
     }
 }

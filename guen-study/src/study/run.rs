@@ -4,15 +4,18 @@
 use std::rc::Rc;
 use std::time::Duration;
 
+use guen_runtime::Real;
 use guen_runtime::steppers::Statistics;
 
 use super::budget::{Budget, Stage};
 use super::choice::least_certain;
 use super::digits71::Digits71;
 use super::known::Known;
-use super::measure::{against, kept};
+use super::measure::{Measure, against, kept};
 use super::probes::{self, Probe};
-use super::reference::{CANCELLED, Named, Problem, ReferenceReport, References};
+use super::reference::{
+    CANCELLED, NO_ENERGY, NO_MOTION, NO_SCALES, Named, Problem, ReferenceReport, References,
+};
 use super::report::{Ending, StudyReport, Unit};
 use super::row::{FailureKind, Nearby, Row};
 use super::timing::{Cost, Deadline, Wall};
@@ -52,17 +55,16 @@ pub(super) fn run<S, const N: usize>(mut study: Study<S, N>) -> Trade<N> {
     let mut budget = Budget::new(study.budget, study.progress, stop, clock);
     let times = study.times();
 
-    let finite =
-        [study.t0, study.t1].iter().chain(study.starts.iter().flatten()).all(|number| number.is_finite());
-    let is_posed = finite && study.t0 != study.t1;
+    let fault = ill_posed(&study);
+    let is_posed = fault.is_none();
     if !is_posed {
         study.variants.clear();
         study.probes = 0;
     }
     let known = if is_posed { known(&study, &times, &mut budget) } else { Known::nothing(study.points) };
-    let (references, reference) = match is_posed {
-        true => references(&mut study, &times, &known, &mut budget),
-        false => (Vec::new(), Some(ReferenceReport::without_motion())),
+    let (references, reference) = match fault {
+        None => references(&mut study, &times, &known, &mut budget),
+        Some(reason) => (Vec::new(), Some(ReferenceReport::of_nothing(reason))),
     };
     let mut tried = errors(&mut study, &times, &references, reference.as_ref(), &mut budget);
     let probes = nearby(&study, &times, &references, &known, &mut tried, &mut budget);
@@ -113,6 +115,22 @@ pub(super) fn run<S, const N: usize>(mut study: Study<S, N>) -> Trade<N> {
         check: study.check,
     };
     Trade { report, means }
+}
+
+/// The reason why there is nothing to measure.
+fn ill_posed<S, const N: usize>(study: &Study<S, N>) -> Option<&'static str> {
+    let mut numbers = [study.t0, study.t1].into_iter().chain(study.starts.iter().flatten().copied());
+    if !numbers.all(f64::is_finite) || study.t0 == study.t1 {
+        return Some(NO_MOTION);
+    }
+    // Infinity leaves an entry out.
+    if study.scales.is_some_and(|scales| scales.iter().any(|scale| scale.is_nan() || *scale <= 0.0)) {
+        return Some(NO_SCALES);
+    }
+    let has_energy =
+        |start: &[f64; N]| (study.tells)(Digits71::from_f64(study.t0), &lengthened(start)).energy.is_some();
+    let is_energy = matches!(study.measure, Measure::Energy);
+    (is_energy && !study.starts.iter().all(has_energy)).then_some(NO_ENERGY)
 }
 
 /// Looks for what references might step over, where there are any.

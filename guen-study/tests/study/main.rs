@@ -252,6 +252,31 @@ fn a_study_without_a_motion_says_so() {
     }
 }
 
+/// No energy, and sizes that are none: nothing is measured. All the time that there is is enough.
+#[test]
+fn a_study_that_has_nothing_to_measure_says_so() {
+    let study = || {
+        let study = Study::new(generic(Planar::Oscillator), [1.0, 0.0], 0.0..1.0).unwrap();
+        study
+            .count_evaluations()
+            .scan(1 << 10)
+            .keep(|method, real| method == "RK4" && real == "f64")
+            .probes(0, 0.0)
+    };
+    let none = |trade: guen_study::Trade<2>| {
+        assert!(trade.report.rows.is_empty());
+        let none = trade.report.fastest_within(1e-3).unwrap_err();
+        assert!(trade.report.to_string().contains(&none.to_string()), "{none}");
+        none
+    };
+    assert_eq!(none(study().energy(3).run()), NoChoice::NoEnergy);
+    for scales in [[0.0, 1.0], [1.0, -1.0], [f64::NAN, 1.0]] {
+        assert_eq!(none(study().scales(scales).run()), NoChoice::NoScales);
+    }
+    let trade = study().scales([1.0, f64::INFINITY]).within(std::time::Duration::MAX).run();
+    assert!(trade.report.fastest_within(1e-3).is_ok());
+}
+
 /// A clock that tells each row's own time, with noise that is the same in every study.
 struct Told64 {
     seconds: fn(usize) -> f64,
