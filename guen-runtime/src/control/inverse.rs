@@ -248,8 +248,12 @@ fn search<R: Ordered, const L: usize, const M: usize>(
 struct Gap<R, const L: usize, const M: usize> {
     /// `M eta' + bias - G u`
     gap: [R; L],
+    /// The largest force that is missing.
+    missing: f64,
+    /// The largest without its unit: over the root of the inertia that it moves. Otherwise nobody would see the forces of a light body beside those of a
+    /// heavy one.
     size: f64,
-    /// The largest of what it is the difference of.
+    /// The largest of what it is the difference of, likewise.
     scale: f64,
     columns: [[R; L]; M],
 }
@@ -259,12 +263,26 @@ impl<R: Ordered, const L: usize, const M: usize> Gap<R, L, M> {
         let MassForm { mass, bias, input } = form;
         let (inertia, made) = (apply(mass, accelerations), apply(input, inputs));
         let gap = core::array::from_fn(|s| inertia[s] + bias[s] - made[s]);
-        let scale = largest(inertia.iter().chain(bias).chain(&made).copied());
-        Self { gap, size: largest(gap.iter().copied()), scale, columns: transpose(input) }
+        let terms = core::array::from_fn(|s| largest([inertia[s], bias[s], made[s]].into_iter()));
+        let without_unit = |forces: [f64; L]| {
+            let of = |s: usize| {
+                let root = libm::sqrt(mass[s][s].to_f64());
+                forces[s] / if root > 0.0 && root.is_finite() { root } else { 1.0 }
+            };
+            largest((0..L).map(of))
+        };
+        let sizes = gap.map(|force| force.abs().to_f64());
+        Self {
+            gap,
+            missing: largest(gap.iter().copied()),
+            size: without_unit(sizes),
+            scale: without_unit(terms),
+            columns: transpose(input),
+        }
     }
 
     fn is_finite(&self) -> bool {
-        self.size.is_finite() && self.scale.is_finite()
+        self.missing.is_finite() && self.size.is_finite() && self.scale.is_finite()
     }
 
     /// The least change of the inputs that fills the gap as far as `G` reaches, the rank of `G`, and whether all of its
@@ -321,7 +339,7 @@ fn newton<R: Ordered, const L: usize, const M: usize>(
         if here.size <= FORCE_ROUNDINGS * R::epsilon().to_f64() * here.scale {
             return Ok(inputs);
         }
-        stuck.residual = here.size;
+        stuck.residual = here.missing;
         let Some((change, rank, complete)) = here.change() else { break };
         (stuck.rank, stuck.complete) = (rank, complete);
         let mut part = R::one();
@@ -424,6 +442,23 @@ mod tests {
         assert!(from(-0.1).unwrap()[0] < 0.0 && from(0.1).unwrap()[0] > 0.0);
         let nowhere = |_: &[f64; 1]| MassForm { mass: [[f64::NAN]], bias: [0.0], input: [[1.0]] };
         assert_eq!(inverse_dynamics(nowhere, &[1.0]), Err(InverseDynamicsError::NotFinite));
+    }
+
+    #[test]
+    fn a_light_body_is_moved_beside_a_heavy_one() {
+        // A heavy body that falls as it is asked to, and a wheel with 50 rad/s^2.
+        for light in [1.0, 1e-10, 1e-16] {
+            let form = MassForm {
+                mass: [[1e4, 0.0], [0.0, light]],
+                bias: [1e4 * 9.81, 0.0],
+                input: [[1.0, 0.0], [0.0, 1.0]],
+            };
+            let [push, torque]: [f64; 2] = affine_inverse_dynamics(&form, &[-9.81, 50.0]).unwrap();
+            assert!(
+                push.abs() < 1e-10 && (torque / (50.0 * light) - 1.0).abs() < 1e-14,
+                "{light:e}: {torque:e}"
+            );
+        }
     }
 
     #[test]

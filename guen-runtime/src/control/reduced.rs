@@ -394,20 +394,20 @@ impl<'a, R: Ordered, const N: usize, const H: usize> Leaf<'a, R, N, H> {
 
     /// Solves for the slots that depend on the others.
     fn solve(&self, slots: &[Component]) -> Result<Solved<R, N, H>, ReduceError> {
-        /// An entry that is smaller than this beside the largest one is no pivot.
+        /// An entry that is smaller than this beside the largest one of its row is no pivot.
         const LEAST_PIVOT: f64 = 1e-10;
         let mut f = [[R::zero(); N]; H];
         for (row, given) in f.iter_mut().zip(&self.rows) {
-            for (entry, slot) in row.iter_mut().zip(slots) {
-                *entry = self
-                    .direction(*slot, &self.coordinates)
-                    .iter()
-                    .fold(R::zero(), |sum, (i, part)| sum + given[*i] * *part);
+            // Rows are compared without their units, which are those of the combinations.
+            let size = largest(given.iter().copied());
+            if !size.is_finite() {
+                return Err(ReduceError::NotFinite);
             }
-        }
-        let scale = largest(self.rows.iter().flatten().copied());
-        if !scale.is_finite() {
-            return Err(ReduceError::NotFinite);
+            let size = if size > 0.0 { R::from_f64(size) } else { R::one() };
+            for (entry, slot) in row.iter_mut().zip(slots) {
+                let along = self.direction(*slot, &self.coordinates);
+                *entry = along.iter().fold(R::zero(), |sum, (i, part)| sum + given[*i] / size * *part);
+            }
         }
         let is_free = |slot: &Component| match *slot {
             Component::Coordinate(i) => !self.independent[i],
@@ -420,7 +420,7 @@ impl<'a, R: Ordered, const N: usize, const H: usize> Leaf<'a, R, N, H> {
         let needed = H.saturating_sub(self.quaternions.len());
         while solved.rank < needed {
             let k = solved.rank;
-            let mut best = (LEAST_PIVOT * scale, None);
+            let mut best = (LEAST_PIVOT, None);
             for (i, row) in f.iter().enumerate().skip(k) {
                 for (j, slot) in slots.iter().enumerate() {
                     let size = row[j].to_f64().abs();

@@ -454,3 +454,26 @@ fn units_decide_no_equilibrium() {
     let none = held([true, true, false, false], [true, true]);
     assert!(steady(&system, 0.0, &[0.0; 4], &[0.0; 2], &none).is_ok());
 }
+
+#[test]
+fn units_of_combinations_decide_no_leaf() {
+    // x = 2 y, told in picometres, and y = 3 z.
+    for unit in [1.0, 1e-12, 1e12] {
+        let leaf = Leaf {
+            coordinates: [0.0; 3],
+            velocities: [0.0; 3],
+            rows: [[unit, -2.0 * unit, 0.0], [0.0, 1.0, -3.0]],
+            quaternions: &[],
+            independent: [false, false, true],
+            names: &["x", "y", "z"],
+        };
+        let linear = Linearization { a: [[0.0; 3]; 3], b: [[6.0], [3.0], [1.0]] };
+        let reduced =
+            leaf.reduce::<3, 1, 1>(&linear, &[0.0; 3]).unwrap_or_else(|error| panic!("{unit:e}: {error}"));
+        let lifted: [f64; 3] = reduced.lift(&[1.0]);
+        assert!(
+            lifted.iter().zip([6.0, 3.0, 1.0]).all(|(x, y)| (x - y).abs() < 1e-14),
+            "{unit:e}: {lifted:?}"
+        );
+    }
+}
