@@ -16,10 +16,12 @@ pub fn median_with_interval(values: &mut [f64]) -> Option<(f64, (f64, f64))> {
     }
     values.sort_by(f64::total_cmp);
     let n = values.len();
-    let mut probability = 0.5_f64.powi(n as i32);
-    let (mut below, mut out) = (probability, 0);
+    // Of more than a thousand values the first probabilities are below the least number, and their logarithms are not.
+    let mut logarithm = -(n as f64) * std::f64::consts::LN_2;
+    let (mut below, mut out) = (logarithm.exp(), 0);
     while out + 1 < n / 2 {
-        probability *= (n - out) as f64 / (out + 1) as f64;
+        logarithm += ((n - out) as f64 / (out + 1) as f64).ln();
+        let probability = logarithm.exp();
         if below + probability > 0.025 {
             break;
         }
@@ -39,5 +41,15 @@ mod tests {
         // Tables of the sign test: 9 of 31 is the critical value at 5 percent, two-sided.
         let mut values: Vec<f64> = (0..31).rev().map(f64::from).collect();
         assert_eq!(median_with_interval(&mut values), Some((15.0, (9.0, 21.0))));
+    }
+
+    #[test]
+    fn many_values_have_an_interval_too() {
+        // The quantiles of the binomial distribution, by SciPy.
+        for (n, out) in [(500, 227), (1000, 468), (1073, 503), (1075, 504), (2001, 956), (100_000, 49_689)] {
+            let mut values: Vec<f64> = (0..n).map(f64::from).collect();
+            let ends = (f64::from(out), f64::from(n - 1 - out));
+            assert_eq!(median_with_interval(&mut values), Some((f64::from(n - 1) / 2.0, ends)));
+        }
     }
 }

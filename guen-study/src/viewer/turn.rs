@@ -4,6 +4,9 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Turn(pub(super) [f64; 4]);
 
+/// The most that rows of a matrix may be off from being orthonormal: a tenth, far more than what integration leaves.
+const MOST_OFF: f64 = 0.1;
+
 impl Turn {
     pub(super) const NONE: Self = Self([1.0, 0.0, 0.0, 0.0]);
 
@@ -20,14 +23,19 @@ impl Turn {
         Self([c, x, y, z])
     }
 
-    /// The turn whose matrix, row by row, is a positive multiple of this one; a reflection or a matrix of rank below
-    /// two makes something that is not finite.
+    /// The turn whose matrix, row by row, is a positive multiple of this one; what is no turn, as a reflection or a shear, makes something
+    /// that is not finite.
     ///
     /// Of the four formulas by the trace and the diagonal, the one that divides by the largest component (Shepperd 1978).
     pub(super) fn from_matrix(m: &[[f64; 3]; 3]) -> Self {
         // A quaternion that drifted off the unit sphere declares |q|^2 R.
         let scale = f64::cbrt(determinant(m));
         let m = m.map(|row| row.map(|e| e / scale));
+        let product = |i: usize, j: usize| (0..3).map(|k| m[i][k] * m[j][k]).sum::<f64>();
+        let is_off = |i: usize, j: usize| (product(i, j) - f64::from(u8::from(i == j))).abs() > MOST_OFF;
+        if scale <= 0.0 || (0..3).any(|i| (0..=i).any(|j| is_off(i, j))) {
+            return Self([f64::NAN; 4]);
+        }
         let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = m;
         let four_squares = [1.0 + xx + yy + zz, 1.0 + xx - yy - zz, 1.0 - xx + yy - zz, 1.0 - xx - yy + zz];
         let columns = [
@@ -171,7 +179,19 @@ mod tests {
             let half = Turn::about(axis, std::f64::consts::PI);
             assert!(Turn::from_matrix(&matrix(half)).nearness(half) > 1.0 - 1e-15);
         }
-        assert!(!Turn::from_matrix(&[[0.0; 3]; 3]).is_finite());
+        for none in [
+            [[0.0; 3]; 3],
+            // A mirror, a shear, a stretch, and no numbers.
+            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]],
+            [[1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            [[f64::NAN; 3]; 3],
+        ] {
+            assert!(!Turn::from_matrix(&none).is_finite(), "{none:?}");
+        }
+        // What integration leaves is drawn.
+        let drifted = [[1.0, 0.03, 0.0], [0.0, 0.99, 0.0], [0.0, 0.0, 1.02]];
+        assert!(Turn::from_matrix(&drifted).is_finite());
     }
 
     #[test]
