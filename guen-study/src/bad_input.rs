@@ -172,3 +172,17 @@ fn a_thousand_curves_are_refused_by_their_size_and_drawn_where_there_is_room() {
     assert!(matches!(named.to_svg(), Err(StudyError::Size { .. })));
     assert!(named.size(4000, 4000).to_svg().is_ok());
 }
+
+#[test]
+fn logarithmic_plots_of_the_least_and_the_largest_numbers_come_to_an_end() {
+    for x in [5e-324, 1e-300, 1e-10, 1.0, 1e290, 1e300] {
+        for y in [5e-324, 1.0, 1e299] {
+            for equal in [false, true] {
+                let plot =
+                    Plot::new("far").logarithmic(true).equal_scale(equal).line("a", [(x, y), (x, 2.0 * y)]);
+                let text = plot.to_svg().unwrap_or_else(|error| panic!("{x:e} {y:e}: {error}"));
+                assert!(!text.contains("NaN") && !text.contains("inf"), "{x:e} {y:e}");
+            }
+        }
+    }
+}

@@ -182,11 +182,15 @@ fn ranges(plot: &Plot) -> Option<((f64, f64), (f64, f64))> {
     let place = |value: f64| if plot.logarithmic { value.log10() } else { value };
     let points = || plot.drawn().flat_map(|curve| &curve.points).filter(|point| plot.can_draw(point));
     let x_room = if plot.logarithmic { 0.03 } else { x_room };
-    Some((range(points().map(|p| place(p.0)), x_room)?, range(points().map(|p| place(p.1)), y_room)?))
+    let ranged = |values: &mut dyn Iterator<Item = f64>, room| range(values, room, plot.logarithmic);
+    Some((
+        ranged(&mut points().map(|p| place(p.0)), x_room)?,
+        ranged(&mut points().map(|p| place(p.1)), y_room)?,
+    ))
 }
 
 /// The range of values, not narrower than can be labelled, with room at both ends.
-fn range(values: impl Iterator<Item = f64>, room: f64) -> Option<(f64, f64)> {
+fn range(values: &mut dyn Iterator<Item = f64>, room: f64, logarithmic: bool) -> Option<(f64, f64)> {
     /// The narrowest range over the size of its values: labels have ten digits then.
     const NARROW: f64 = 1e-9;
     /// The size up to which values count as zero: their differences have no digits.
@@ -198,8 +202,12 @@ fn range(values: impl Iterator<Item = f64>, room: f64) -> Option<(f64, f64)> {
     let size = low.abs().max(high.abs());
     let least = if size <= TINY { 1.0 } else { NARROW * size };
     let (middle, span) = (low / 2.0 + high / 2.0, (high - low).max(least));
-    // A constant is drawn against its size.
-    let span = if low == high && size > TINY { 0.2 * size } else { span };
+    // A constant is drawn against its size, which on a logarithmic axis is a decade.
+    let span = match low == high {
+        true if logarithmic => 1.0,
+        true if size > TINY => 0.2 * size,
+        _ => span,
+    };
     let half = (0.5 + room) * span;
     Some((middle - half, middle + half))
 }

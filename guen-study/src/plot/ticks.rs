@@ -18,7 +18,8 @@ pub(super) fn ticks(low: f64, high: f64, most: usize) -> Vec<Tick> {
         return Vec::new();
     }
     let least = span / most.max(1) as f64;
-    let mut power = least.log10().floor() as i32;
+    // Of the least numbers the part is zero.
+    let mut power = (least.log10().floor() as i32).max(f64::MIN_10_EXP - f64::DIGITS as i32 - 2);
     let mut digit = 1;
     loop {
         let found = multiples(low, high, digit, power);
@@ -55,7 +56,9 @@ pub(super) fn decades(low: f64, high: f64, most: usize) -> Vec<Tick> {
         1 => "10".to_owned(),
         _ => format!("10{}", superscript(power)),
     };
-    marked.map(|power| Tick { value: 10_f64.powi(power), label: label(power) }).collect()
+    // An axis with room around it may reach beyond all numbers.
+    let marks = marked.map(|power| Tick { value: 10_f64.powi(power), label: label(power) });
+    marks.filter(|tick| tick.value.is_finite() && tick.value > 0.0).collect()
 }
 
 /// The multiples of `digit * 10^power` in the range; `None` if they are far too many.
@@ -109,6 +112,19 @@ mod tests {
 
     fn labels(low: f64, high: f64, most: usize) -> Vec<String> {
         ticks(low, high, most).into_iter().map(|tick| tick.label).collect()
+    }
+
+    #[test]
+    fn the_ends_of_all_numbers_have_marks_or_none() {
+        for (low, high) in [(0.0, 5e-324), (5e-324, 2e-323), (-1e-323, 1e-323), (1.7e308, f64::MAX)] {
+            assert!(ticks(low, high, 6).len() <= 6, "{low:e} {high:e}");
+        }
+        for (low, high) in
+            [(261.0, 319.0), (-339.0, -300.0), (-2000.0, 2000.0), (-323.8, -322.8), (307.9, 308.9)]
+        {
+            let marks = decades(low, high, 6);
+            assert!(marks.len() <= 6 && marks.iter().all(|tick| tick.value > 0.0 && tick.value.is_finite()));
+        }
     }
 
     #[test]
