@@ -208,3 +208,39 @@ fn places_along_paths() {
         }
     }
 }
+
+guen::mechanical_system! {
+    /// A weight on a turning spoke, held by a spring that is stiff beyond measure.
+    pub system Stiff {
+        constants { k = 1e15 }
+        coordinates { x, q }
+        parameters { v = dot(x); w = dot(q); }
+        kinetic_energy = (2 + cos(x))*w^2/2 + v^2/2;
+        forces { -k*x along v; }
+    }
+}
+
+guen::mechanical_system! {
+    /// The same with forces that are no numbers everywhere.
+    pub system Rough {
+        inputs { u }
+        coordinates { x, q }
+        parameters { v = dot(x); w = dot(q); }
+        kinetic_energy = (2 + cos(x))*w^2/2 + v^2/2;
+        forces { sqrt(u)*w - v/abs(v) along v; ln(w) along w; }
+    }
+}
+
+/// Declared forces have no part in what inertia asks for, however large they are, and where they are no numbers.
+#[test]
+fn inertia_without_the_declared_forces() {
+    let expected = |x: f64, v: f64, w: f64| [x.sin() * w * w / 2.0, -x.sin() * v * w];
+    let stiff = Stiff::default().prepare().unwrap();
+    let found = stiff.coriolis_and_gravity(0.0, &stiff::State { x: 0.3, q: 0.0, v: 0.5, w: 0.7 });
+    let rough = Rough::default().prepare().unwrap();
+    let at_rest = rough.coriolis_and_gravity(0.0, &rough::State { x: 0.3, q: 0.0, v: 0.0, w: -0.7 });
+    for (found, expected) in [(found, expected(0.3, 0.5, 0.7)), (at_rest, expected(0.3, 0.0, -0.7))] {
+        assert_near(found[0], expected[0], 1e-14, "along the spoke");
+        assert_near(found[1], expected[1], 1e-14, "about the hub");
+    }
+}

@@ -41,8 +41,8 @@ pub const DETERMINED: &str = "determined";
 pub const LEAF: &str = "leaf";
 /// The lower triangle of the mass matrix, the bias, and the matrix of the inputs.
 pub const MASS_FORM: &str = "mass_form";
-/// The generalised forces but those of the inputs, with their sign turned; only where there are some.
-pub const APPLIED: &str = "applied";
+/// The bias of the mass form without the declared forces; only where there are some.
+pub const COASTING: &str = "coasting";
 /// The reactions as a covector on the velocities; only where all are known.
 pub const REACTION_COVECTOR: &str = "reaction_covector";
 /// The derivatives of the rates by state and inputs, those that do not vanish.

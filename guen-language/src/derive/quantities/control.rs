@@ -21,10 +21,10 @@ pub(crate) fn has_covector(derivation: &Derivation) -> bool {
 
 /// The functions and what they compute.
 pub(crate) fn quantities(bench: &mut Workbench, derivation: &Derivation) -> Vec<Quantity> {
-    let MassForm { entries, applied } = mass_form(bench, derivation);
+    let MassForm { entries, forced } = mass_form(bench, derivation);
     let mut found = vec![(function::LEAF, leaf(bench, derivation)), (function::MASS_FORM, entries)];
-    if applied.iter().any(|force| !bench.graph.is_zero(*force)) {
-        found.push((function::APPLIED, applied));
+    if forced {
+        found.push((function::COASTING, coasting(bench, derivation)));
     }
     if has_covector(derivation) {
         found.push((function::REACTION_COVECTOR, covector(bench, derivation)));
@@ -52,8 +52,8 @@ fn leaf(bench: &mut Workbench, derivation: &Derivation) -> Vec<ExprId> {
 struct MassForm {
     /// The lower triangle of `M`, row by row, then the bias, then `G`.
     entries: Vec<ExprId>,
-    /// The part of the bias that is forces: with their sign turned as there, what is prepared serves both.
-    applied: Vec<ExprId>,
+    /// Whether the bias has a part of declared forces.
+    forced: bool,
 }
 
 fn mass_form(bench: &mut Workbench, derivation: &Derivation) -> MassForm {
@@ -70,28 +70,30 @@ fn mass_form(bench: &mut Workbench, derivation: &Derivation) -> MassForm {
     let is_affine = !slopes.iter().flatten().any(|slope| bench.graph.roles(*slope).meets(driven));
     let zero = bench.graph.zero();
     let mut idle = Substitution::new(inputs.iter().map(|input| (*input, zero)));
-    let mut without_inputs = |bench: &mut Workbench, force: ExprId, slopes: &[ExprId]| {
-        if is_affine {
-            idle.of(&mut bench.graph, force)
+    for (force, slopes) in equations.forces.iter().zip(&slopes) {
+        let free = if is_affine {
+            idle.of(&mut bench.graph, *force)
         } else {
             // Exact at these inputs: f - G u.
             let made = bench.dot(slopes, inputs);
-            bench.graph.sub(force, made)
-        }
-    };
-    for (force, slopes) in equations.forces.iter().zip(&slopes) {
-        let free = without_inputs(bench, *force, slopes);
+            bench.graph.sub(*force, made)
+        };
         list.push(bench.graph.neg(free));
     }
-    let generalised = derivation.generalised_forces.iter().zip(&slopes);
-    let applied = generalised
-        .map(|(force, slopes)| {
-            let free = without_inputs(bench, *force, slopes);
-            bench.graph.neg(free)
-        })
-        .collect();
+    let forced = !is_affine
+        || derivation.generalised_forces.iter().any(|force| {
+            let free = idle.of(&mut bench.graph, *force);
+            !bench.graph.is_zero(free)
+        });
     list.extend(slopes.into_iter().flatten());
-    MassForm { entries: list, applied }
+    MassForm { entries: list, forced }
+}
+
+/// The bias without the declared forces. They are taken away here and not from values of the bias: there they may be infinite,
+/// or so large that nothing is left of the rest.
+fn coasting(bench: &mut Workbench, derivation: &Derivation) -> Vec<ExprId> {
+    let forces = derivation.equations.forces.iter().zip(&derivation.generalised_forces);
+    forces.map(|(force, generalised)| bench.graph.sub(*generalised, *force)).collect()
 }
 
 /// `R_i = sum_v lambda_v a_vi`.

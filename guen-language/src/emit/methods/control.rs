@@ -60,13 +60,13 @@ fn dynamics(subject: &Subject<'_, '_>, layout: &Layout) -> Option<TokenStream> {
     let (n, size, count) = (layout.n, layout.size, layout.inputs);
     let l = layout.l;
     let has = |name: &str| subject.level.program(name).is_some().then(|| format_ident!("{name}"));
-    let (mass, applied) = (has(function::MASS), has(function::APPLIED));
+    let (mass, coasting) = (has(function::MASS), has(function::COASTING));
     let has_outputs = !subject.level.selection.outputs.is_empty();
     let jacobians = has_outputs.then(|| quote!(__guen::jacobians!(#n, #l, #size, #count);));
     (l > 0).then(|| {
         quote! {
             impl<R: __guen::Real + __guen::Lift<R>> Prepared<R> {
-                __guen::dynamics!(#n, #l, #size, #count, [#mass], [#applied]);
+                __guen::dynamics!(#n, #l, #size, #count, [#mass], [#coasting]);
                 #jacobians
             }
         }

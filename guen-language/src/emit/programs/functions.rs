@@ -121,7 +121,7 @@ pub(super) fn signature(name: &str) -> Signature {
         function::RHS
         | function::OUTPUTS
         | function::MASS_FORM
-        | function::APPLIED
+        | function::COASTING
         | function::LINEARIZATION
         | function::SWITCHES
         | function::OUTPUT_LINEARIZATION => Signature::Driven,

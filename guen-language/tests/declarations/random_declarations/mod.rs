@@ -191,9 +191,9 @@ fn equations_apart(
     let inputs: Vec<f64> = model.inputs.iter().map(|input| at(symbol(input.symbol))).collect();
     let accelerations: Vec<f64> = mechanics.accelerations[..l].iter().map(|e| at(symbol(*e))).collect();
     let form = evaluated(&derived.system, function::MASS_FORM, at).unwrap_or_default();
-    let applied = evaluated(&derived.system, function::APPLIED, at).unwrap_or_else(|| vec![0.0; l]);
     let (triangle, rest) = form.split_at(l * (l + 1) / 2);
     let (bias, input) = rest.split_at(l);
+    let coasting = evaluated(&derived.system, function::COASTING, at).unwrap_or_else(|| bias.to_vec());
     let velocities = |moved: Option<usize>| {
         let one = moved.map(|s| symbol(mechanics.etas[s]));
         evaluated(&derived.system, function::VELOCITIES, |s| at(s) + f64::from(u8::from(one == Some(s))))
@@ -211,7 +211,7 @@ fn equations_apart(
         let unit = unit * largest * (1.0 + force.abs() + bias[s].abs());
         for (what, left) in [
             ("an equation of motion", inertia + bias[s] - made),
-            ("a generalised force", made - applied[s] - force),
+            ("a generalised force", made - (bias[s] - coasting[s]) - force),
         ] {
             assert!(left.abs() <= ROUNDING * unit, "{what}: {left:e} is left in row {s} of\n{text}");
         }

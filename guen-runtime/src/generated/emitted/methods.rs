@@ -89,7 +89,14 @@ macro_rules! dynamics {
     (@ $self:ident, $t:ident, $state:ident, $n:literal, $count:literal, [$mass:ident]) => {
         program::$mass(&$self.constants, &$self.hoisted, $t, &$crate::checks::first::<R, $n>(&$state))
     };
-    ($n:literal, $l:literal, $size:literal, $count:literal, [$($mass:ident)?], [$($applied:ident)?]) => {
+    (@bias $self:ident, $t:ident, $state:ident, $idle:ident, $l:literal, []) => {{
+        let entries = program::mass_form(&$self.constants, &$self.hoisted, $t, $state, $idle);
+        ::core::array::from_fn(|s| entries[$l * ($l + 1) / 2 + s])
+    }};
+    (@bias $self:ident, $t:ident, $state:ident, $idle:ident, $l:literal, [$coasting:ident]) => {
+        program::$coasting(&$self.constants, &$self.hoisted, $t, $state, $idle)
+    };
+    ($n:literal, $l:literal, $size:literal, $count:literal, [$($mass:ident)?], [$($coasting:ident)?]) => {
         /// The mass matrix `M`, symmetric: `M eta' + coriolis_and_gravity = forces`.
         pub fn mass_matrix(&self, t: R, state: &State<R>) -> [[R; $l]; $l] {
             let state: [R; $size] = ::core::convert::From::from(*state);
@@ -98,17 +105,11 @@ macro_rules! dynamics {
 
         /// The generalised forces that inertia and the force function ask for at these velocities, `M eta' + coriolis_and_gravity =
         /// forces`: Coriolis and centrifugal terms, moving constraints, and [`gravity`](Self::gravity). Declared `forces` are none of
-        /// it, whatever they depend on. Takes an evaluation of [`mass_form`](Self::mass_form).
+        /// it, whatever they depend on. Takes its own operations, or those of [`mass_form`](Self::mass_form) where no forces are declared.
         pub fn coriolis_and_gravity(&self, t: R, state: &State<R>) -> [R; $l] {
             let state = &::core::convert::From::from(*state);
             let idle = &[R::zero(); $count];
-            let entries = program::mass_form(&self.constants, &self.hoisted, t, state, idle);
-            let bias: [R; $l] = ::core::array::from_fn(|s| entries[$l * ($l + 1) / 2 + s]);
-            $(
-                let applied = program::$applied(&self.constants, &self.hoisted, t, state, idle);
-                let bias = ::core::array::from_fn(|s| bias[s] - applied[s]);
-            )?
-            bias
+            $crate::dynamics!(@bias self, t, state, idle, $l, [$($coasting)?])
         }
 
         /// The generalised forces that balance the force function, `-X_s(U)`: gravity, and springs that are declared as a
