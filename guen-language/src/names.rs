@@ -236,6 +236,9 @@ pub fn is_reserved(word: &str) -> bool {
     is_function(word) || RESERVED_WORDS.contains(&word) || word.starts_with(RESERVED_PREFIX)
 }
 
+/// The parameter of generic code, which hides items of that name.
+pub(crate) const REAL: &str = "R";
+
 /// Whether a system cannot have this name, because its module has an item of that name.
 pub fn is_generated_item(word: &str) -> bool {
     let number = word.strip_prefix('X');

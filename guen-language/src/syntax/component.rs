@@ -5,7 +5,7 @@ use std::rc::Rc;
 use proc_macro2::{Span, TokenStream};
 
 use super::{Declaration, Docs, EntryNode, Expression, Item, Name, Path, Visibility};
-use crate::names::{CARRIED_ITEMS, MODES, is_generated_item, module_name};
+use crate::names::{CARRIED_ITEMS, MODES, REAL, is_generated_item, module_name};
 
 /// `component Name(a: scalar, ..) { sections }`.
 #[derive(Debug, Clone)]
@@ -183,6 +183,7 @@ impl Declaration {
     pub fn takes_name(&self, text: &str) -> bool {
         let is_scene = |item: &Item| matches!(item, Item::Scene(scene) if scene.name.text == text);
         is_generated_item(text)
+            || text == REAL
             || CARRIED_ITEMS.contains(&text)
             || text == MODES
             || self.name.text == text

@@ -102,3 +102,20 @@ fn sound_systems_with_imports_have_no_error_before_them() {
     }
     assert!(count >= 25, "{count}");
 }
+
+/// Generated code has a real type `R`, which hides what is imported by that name.
+#[test]
+fn components_are_imported_by_other_names_than_the_real_type() {
+    let spring = "{ { pub component R(length: scalar) {
+        constants { k >= 0 }
+        potential_energy = k/2*length^2;
+    } } }";
+    let cart = |path: &str| {
+        let text = format!(
+            "system Cart {{ constants {{ m > 0 }} coordinates {{ x }} kinetic_energy = m/2*dot(x)^2; use {path} as left {{ length: x }} }}"
+        );
+        messages(&expand_with(format!("{{ {text} }} {spring}").parse().expect("tokens")).to_string())
+    };
+    assert_eq!(cart("R"), ["a component cannot be used by the name `R`"]);
+    assert_eq!(cart("springs::R"), [""; 0]);
+}

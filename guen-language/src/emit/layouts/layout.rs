@@ -8,6 +8,7 @@ use super::fields::Fields;
 use super::supplied::Supplied;
 use crate::derive::{DerivedLevel, StateIndex, StatePart, Subject};
 use crate::model::Model;
+use crate::names::REAL;
 use crate::syntax::{Declaration, Name};
 
 /// The path of the facade in the user's crate.
@@ -39,9 +40,6 @@ pub(in crate::emit) struct Layout {
     /// Whether this is the system itself.
     pub(in crate::emit) is_whole: bool,
 }
-
-/// The parameter of generic code, which hides a system of that name.
-pub(in crate::emit) const REAL: &str = "R";
 
 impl Layout {
     pub(in crate::emit) fn new(subject: &Subject<'_, '_>) -> Self {

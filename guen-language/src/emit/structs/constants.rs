@@ -10,11 +10,12 @@ use super::{limits, physical};
 use crate::derive::Subject;
 use crate::emit::documentation;
 use crate::emit::layouts::fields::{Entry, Fields, Tree, plain};
-use crate::emit::layouts::layout::{Layout, REAL, variable_name};
+use crate::emit::layouts::layout::{Layout, variable_name};
 use crate::emit::layouts::parts::{self, Modules};
 use crate::emit::layouts::text::tokens;
 use crate::emit::methods::{integrated, motion, with_scalar};
 use crate::emit::programs::formula::default_text;
+use crate::names::REAL;
 use crate::report::ReportLines;
 use crate::syntax::{BoundKind, Expression, Item, Name};
 

@@ -1,7 +1,7 @@
 //! Names of instances and components that the generated module needs for itself.
 
 use crate::diagnostics::{Fault, Faults};
-use crate::names::{is_function, is_reserved, module_name};
+use crate::names::{REAL, is_function, is_reserved, module_name};
 use crate::syntax::{Declaration, Item, Name};
 
 /// Reports instances and components whose modules and structs would have the names of others.
@@ -16,6 +16,14 @@ pub(super) fn check(declaration: &Declaration, faults: &mut Faults) {
         .collect();
     for item in &declaration.items {
         match item {
+            Item::Use(instance) if instance.path.text == REAL && is_imported(declaration, REAL) => {
+                let text = format!("a component cannot be used by the name `{REAL}`");
+                let fault = Fault::new(instance.path.name.span(), text);
+                let fault = fault.note(format!("`{REAL}` is the real type of the code that is generated"));
+                faults.report(
+                    fault.help(format!("import it by another name, as `use module::{REAL} as Other`")),
+                );
+            }
             Item::Use(instance) => {
                 let name = &instance.name;
                 let text = name.root().to_string();
@@ -50,4 +58,8 @@ pub(super) fn check(declaration: &Declaration, faults: &mut Faults) {
             _ => {}
         }
     }
+}
+
+fn is_imported(declaration: &Declaration, path: &str) -> bool {
+    declaration.imported.iter().any(|imported| imported.path == path)
 }
