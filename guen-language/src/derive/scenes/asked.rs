@@ -121,16 +121,26 @@ pub(super) fn tracked(model: &Model<'_>, scene: &SceneEntry<'_>) -> Vec<StateInd
     if scene.scene.tracks.is_empty() { (n..n + l).collect() } else { named.collect() }
 }
 
-/// A scene that fixes all that it would track.
-pub(super) fn nothing_moves(scene: &SceneEntry<'_>) -> Fault {
-    let name = &scene.scene.name;
-    if let Some(tracked) = scene.scene.tracks.first() {
-        let fault = Fault::new(tracked.span(), format!("nothing that scene `{name}` tracks moves"));
-        return fault.note("a component of a vector that is zero is no variable");
+/// Reports what a scene tracks and no variable stands for, and a scene that fixes all that it would track.
+pub(super) fn check_tracked(
+    model: &Model<'_>,
+    scene: &SceneEntry<'_>,
+    tracked: &[StateIndex],
+    faults: &mut Faults,
+) {
+    let (name, before) = (&scene.scene.name, faults.count());
+    for own in scene.scene.tracks.iter().filter(|own| model.places(&own.text).is_empty()) {
+        let fault = Fault::new(own.span(), format!("`{own}` is zero, and scene `{name}` cannot track it"));
+        faults.report(fault.note("a component of a vector that is zero is no variable"));
     }
-    let fault = Fault::new(name.span(), format!("scene `{name}` has nothing that moves"))
-        .note("without `track` the parameters are tracked, and all of them are fixed");
-    fault.help("write `track` and what somebody will look at")
+    if tracked.is_empty() && faults.count() == before {
+        let fault = match scene.scene.tracks.first() {
+            Some(own) => Fault::new(own.span(), format!("nothing that scene `{name}` tracks moves")),
+            None => Fault::new(name.span(), format!("scene `{name}` has nothing that moves"))
+                .note("without `track` the parameters are tracked, and all of them are fixed"),
+        };
+        faults.report(fault.help("write `track` and what somebody will look at"));
+    }
 }
 
 /// Returns the provided quantities that depend on the state, by name, with accelerations as functions of the state.

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use guen_symbolic::{Dependence, Derivation, ExprId, Substitution, Workbench};
 
-use super::asked::{is_output, nothing_moves, of_outputs, provided, tracked, wanted};
+use super::asked::{check_tracked, is_output, of_outputs, provided, tracked, wanted};
 use super::cheapest::cheapest;
 use super::kept::{Kept, closed};
 use crate::derive::brackets::commutator::Commutator;
@@ -147,9 +147,7 @@ fn level(
     let mut selection = provided(model, &derivation, contacts.as_ref(), scene, faults);
     let tracked: Vec<StateIndex> =
         tracked(model, scene).into_iter().filter(|place| !fixed::is_held(&held, *place)).collect();
-    if tracked.is_empty() {
-        faults.report(nothing_moves(scene));
-    }
+    check_tracked(model, scene, &tracked, faults);
     if faults.count() > before {
         return None;
     }
