@@ -1,6 +1,6 @@
 //! Functions that are constant where the holonomic constraints hold.
 
-use crate::algebra::{ExprId, Flow, Role, Roles};
+use crate::algebra::{ExprId, Role, Roles};
 use crate::motion::{Frame, Mechanics};
 use crate::workbench::Workbench;
 
@@ -22,19 +22,8 @@ pub(in crate::motion) fn rests(bench: &mut Workbench, system: &Mechanics, frame:
 
 /// Whether all derivatives by the variables vanish where the holonomic constraints hold.
 pub(in crate::motion) fn is_constant(bench: &mut Workbench, e: ExprId, variables: &[ExprId]) -> bool {
-    let moving = Roles::of(Role::Coordinate).or(Roles::of(Role::Time));
-    if !bench.graph.roles(e).meets(moving) {
-        return true;
-    }
-    let occurring = bench.graph.symbols_in(&[e]);
-    let occurs = |bench: &Workbench, x: ExprId| {
-        bench.graph.as_symbol(x).is_some_and(|symbol| occurring.contains(&symbol))
-    };
     variables.iter().all(|x| {
-        if !occurs(bench, *x) {
-            return true;
-        }
-        let slope = Flow::partial(&bench.graph, *x).of(&mut bench.graph, e);
+        let slope = bench.partial(e, *x);
         bench.graph.is_zero(slope) || bench.is_seen_to_vanish(slope)
     })
 }

@@ -505,23 +505,15 @@ pub(in crate::motion) fn shifted(numbers: &mut Numbering, h: &Vec3, r: &Vec3) ->
 /// The rate of a function of time and coordinates.
 fn rate_of(bench: &mut Workbench, numbers: &mut Numbering, system: &Mechanics, e: ExprId) -> RateForm {
     let mut form = RateForm::default();
-    let occurring = bench.graph.symbols_in(&[e]);
-    let occurs = |bench: &Workbench, x: ExprId| {
-        bench.graph.as_symbol(x).is_some_and(|symbol| occurring.contains(&symbol))
-    };
     for (i, x) in system.forms.coordinates.iter().enumerate() {
-        if occurs(bench, *x) {
-            let slope = bench.partial(e, *x);
-            let slope = numbers.import(bench, slope);
-            if !slope.is_zero() {
-                form.terms.push((i, slope));
-            }
+        let slope = bench.partial(e, *x);
+        let slope = numbers.import(bench, slope);
+        if !slope.is_zero() {
+            form.terms.push((i, slope));
         }
     }
-    if occurs(bench, system.forms.time) {
-        let slope = bench.partial(e, system.forms.time);
-        form.offset = Some(numbers.import(bench, slope)).filter(|e| !e.is_zero());
-    }
+    let slope = bench.partial(e, system.forms.time);
+    form.offset = Some(numbers.import(bench, slope)).filter(|e| !e.is_zero());
     form
 }
 
