@@ -106,7 +106,7 @@ Nodding             4     32          13      1             11";
     assert_eq!(hoop::levels().to_string(), expected);
     let expected = "\
 level   variables  bytes  operations  calls  prepared once
-Convoy         13    104          95      4            147
+Convoy         13    104          95      4            150
 Course          8     64          81      4             63
 Dash            6     48          70      4             64
 Alone           8     64          55      4             31
