@@ -109,3 +109,41 @@ impl Graph {
         es.iter().map(|e| open.of(self, *e)).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::Role;
+
+    #[test]
+    fn what_is_added_later_is_replaced_too() {
+        let mut g = Graph::new();
+        let [x, y, z] = ["x", "y", "z"].map(|name| g.symbol(name, Role::Coordinate));
+        let mut substitution = Substitution::new([(x, z)]);
+        let [first, second] = [g.mul(x, x), g.mul(x, y)];
+        assert_eq!(substitution.of(&mut g, first), g.mul(z, z));
+        substitution.add(y, x);
+        assert_eq!(substitution.of(&mut g, second), g.mul(z, x));
+        // From nothing, too.
+        let mut substitution = Substitution::default();
+        substitution.add(y, x);
+        assert_eq!(substitution.of(&mut g, second), g.mul(x, x));
+    }
+
+    /// Roots of numbers have no symbols, and may be below anything.
+    #[test]
+    fn what_has_no_symbols_is_replaced_everywhere() {
+        let mut g = Graph::new();
+        let [x, y, z] = ["x", "y", "z"].map(|name| g.symbol(name, Role::Coordinate));
+        let number = g.ratio(2, 1);
+        let root = g.sqrt(number);
+        let product = g.mul(root, z);
+        let expected = g.mul(y, z);
+        assert_eq!(Substitution::new([(root, y)]).of(&mut g, product), expected);
+        for pairs in [[(root, y), (x, y)], [(x, y), (root, y)]] {
+            let mut substitution = Substitution::default();
+            pairs.into_iter().for_each(|(from, to)| substitution.add(from, to));
+            assert_eq!(substitution.of(&mut g, product), expected);
+        }
+    }
+}

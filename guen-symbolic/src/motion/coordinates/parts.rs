@@ -76,3 +76,68 @@ fn entries(frame: &FrameNode) -> Vec<ExprId> {
         Turn::General { matrix, .. } => matrix.iter().flatten().copied().collect(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::joints_of_one_part;
+    use crate::algebra::{ExprId, Graph};
+    use crate::geometry::Form;
+    use crate::motion::Mechanics;
+    use crate::motion::definition::proof::tests::system;
+    use crate::motion::graph::{BodyNode, FrameId, Place, SystemGraph, Turn};
+    use crate::workbench::Workbench;
+
+    /// Two arms of two joints each, on a base that is turned by a number; `joins` is given the frames of the joints.
+    fn joints(joins: impl FnOnce(&mut Graph, &mut Mechanics, &[FrameId])) -> usize {
+        let mut bench = Workbench::new(Graph::new());
+        let mut arms = system(&mut bench, &["a", "b", "c", "d"], 4, |graph, _, _, _| {
+            let (zero, one) = (graph.zero(), graph.one());
+            let row = |i: usize| (0..4).map(|j| if i == j { one } else { zero }).collect();
+            ((0..4).map(|i| Form { row: row(i), offset: zero }).collect(), zero, zero)
+        });
+        let graph = &mut bench.graph;
+        arms.structure = SystemGraph::new(graph);
+        let (zero, one) = (graph.zero(), graph.one());
+        let base = arms.structure.turned(FrameId::WORLD, Turn::About { axis: [zero, zero, one], angle: one });
+        let mut frames = Vec::new();
+        for (i, angle) in arms.forms.coordinates.iter().enumerate() {
+            let (parent, axis) =
+                if i % 2 == 0 { (base, [zero, zero, one]) } else { (frames[i - 1], [one, zero, zero]) };
+            frames.push(arms.structure.turned(parent, Turn::About { axis, angle: *angle }));
+        }
+        joins(graph, &mut arms, &frames);
+        joints_of_one_part(&bench, &arms)
+    }
+
+    fn with_body(joins: impl FnOnce(&[ExprId], &[FrameId]) -> (FrameId, (FrameId, ExprId))) -> usize {
+        joints(|graph, arms, frames| {
+            let (zero, one) = (graph.zero(), graph.one());
+            let (frame, (axes, component)) = joins(&arms.forms.coordinates, frames);
+            let component = graph.add(component, one);
+            let center = Place { terms: vec![(axes, [component, zero, zero])] };
+            let (frame, center, inertia) = (Some(frame), Some(center), [one; 6]);
+            arms.structure.bodies.push(BodyNode { name: String::new(), frame, center, mass: one, inertia });
+        })
+    }
+
+    /// Frames on a base that stands belong to parts of their own, until a body or a form has coordinates of both.
+    #[test]
+    fn parts_are_joined_by_bodies_and_by_forms() {
+        assert_eq!(joints(|_, _, _| {}), 2);
+        // A body of one arm in the axes of the other, or at a place of it.
+        assert_eq!(with_body(|x, frames| (frames[1], (frames[1], x[0]))), 2);
+        assert_eq!(with_body(|x, frames| (frames[3], (frames[1], x[1]))), 4);
+        assert_eq!(with_body(|x, frames| (frames[2], (FrameId::WORLD, x[1]))), 4);
+        assert_eq!(with_body(|x, frames| (FrameId::WORLD, (frames[1], x[3]))), 4);
+        let with_form = |joins: fn(&mut Form, &[ExprId], ExprId)| {
+            joints(|graph, arms, _| {
+                let one = graph.one();
+                joins(&mut arms.forms.forms[0], &arms.forms.coordinates, one);
+            })
+        };
+        assert_eq!(with_form(|form, _, one| form.row[1] = one), 2);
+        assert_eq!(with_form(|form, _, one| form.row[3] = one), 4);
+        assert_eq!(with_form(|form, x, _| form.row[0] = x[3]), 4);
+        assert_eq!(with_form(|form, x, _| form.offset = x[2]), 4);
+    }
+}

@@ -220,7 +220,7 @@ fn refuse(
 }
 
 #[cfg(test)]
-mod tests {
+pub(in crate::motion) mod tests {
     use super::*;
     use crate::algebra::{Graph, Node, Rational, Role};
     use crate::geometry::{Form, Forms, Operators};
@@ -228,7 +228,7 @@ mod tests {
     use crate::motion::{Force, Holonomic, Solution, VelocityPartials, decompose};
 
     /// The names of coordinates, forms, kinetic energy and force function of a system without forces.
-    fn system(
+    pub(in crate::motion) fn system(
         bench: &mut Workbench,
         names: &[&str],
         degrees: usize,
