@@ -113,6 +113,46 @@ fn what_has_inertia_otherwise_is_no_divisor() {
     derived(text, |derived| assert_eq!(pivots(derived), ["I + m*l^2"]));
 }
 
+/// Of parts side by side each constant changes some entries of the mass matrix: a mass on a cart, the inertia of a ball that rolls, what
+/// two velocities have between them. Without the mass of a cart or of a ball there is inertia enough.
+#[test]
+fn constants_of_parts_side_by_side_are_looked_at_one_by_one() {
+    let text = "pub system Parts {
+        count n = 3;
+        constants { M[n], m[n], l[n], A, I, r > 0, c, k, g = 9.81 }
+        coordinates { x[n], q[n], qw, qx, qy, qz, X, Y, u, v, w }
+        for i in 0..n {
+            let cart[i] = vec(x[i], i, 0);
+            let bob[i] = cart[i] + l[i]*vec(sin(q[i]), 0, -cos(q[i]));
+        }
+        let turn = quaternion(qw, qx, qy, qz);
+        let p = vec(X, Y, r);
+        holonomic { length: qw^2 + qx^2 + qy^2 + qz^2 = 1; }
+        particles { for i in 0..n { M[i] at cart[i]; m[i] at bob[i]; } }
+        bodies { ball { mass: A, inertia: diag(I, I, I), center: p, orientation: turn } }
+        parameters { spin = angular_velocity(turn); }
+        constraints {
+            roll_x: ball.velocity_at(p - vec(0, 0, r)).x = 0;
+            roll_y: ball.velocity_at(p - vec(0, 0, r)).y = 0;
+        }
+        kinetic_energy = (dot(u) + w*dot(v))^2/2 + c*w*dot(u)*dot(v) + dot(w)^2/2;
+        potential_energy = k/2*inner(p - bob[0], p - bob[0]) + sum(i in 1..n: k/2*inner(bob[i] - bob[i-1], bob[i] - bob[i-1]));
+        gravity = vec(0, 0, -g);
+    }";
+    derived(text, |derived| {
+        let graph = &derived.model.bench.graph;
+        let is_refused = |zero: SymbolId| {
+            let value =
+                |symbol: SymbolId| if symbol == zero { 0.0 } else { (7.3 * symbol.index() as f64).sin() };
+            evaluate_f64(graph, &derived.system.constant_pivots, &value).contains(&0.0)
+        };
+        let constants = derived.model.constants.iter();
+        let refused = constants.filter(|entry| is_refused(graph.as_symbol(entry.symbol).unwrap()));
+        let refused: Vec<&str> = refused.map(|entry| entry.name.text.as_str()).collect();
+        assert_eq!(refused, ["m[0]", "m[1]", "m[2]", "l[0]", "l[1]", "l[2]", "I", "c"]);
+    });
+}
+
 /// Where a bound would save operations the report says which, and how many: as many as the declaration with that bound has less.
 #[test]
 fn a_bound_that_saves_operations_is_told() {
