@@ -153,6 +153,23 @@ fn constants_of_parts_side_by_side_are_looked_at_one_by_one() {
     });
 }
 
+/// A gear between two discs that roll: by its ratio a pivot that depends on the headings vanishes at all of them.
+#[test]
+fn constant_factors_of_pivots_are_not_zero() {
+    let text = "pub system Discs {
+        constants { m > 0, I > 0, r > 0, e }
+        coordinates { x, y, z, h, s }
+        constraints {
+            roll_x: dot(x) = r*cos(h)*dot(s);
+            gear: dot(y) = e*cos(h)*dot(x);
+            lift: dot(z) = e*cos(h)*dot(y);
+        }
+        parameters { turn = dot(h); up = dot(z); }
+        kinetic_energy = m/2*(dot(x)^2 + dot(y)^2 + dot(z)^2) + I/2*(dot(h)^2 + dot(s)^2);
+    }";
+    derived(text, |derived| assert_eq!(pivots(derived), ["e"]));
+}
+
 /// Where a bound would save operations the report says which, and how many: as many as the declaration with that bound has less.
 #[test]
 fn a_bound_that_saves_operations_is_told() {

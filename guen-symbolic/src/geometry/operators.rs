@@ -423,6 +423,16 @@ impl Solver<'_> {
         if self.bench.graph.manifestly_nonzero(e) {
             return;
         }
+        // Where a constant factor is zero it vanishes everywhere.
+        if let Node::Product(factors) = self.bench.graph.node(e).clone()
+            && !self.bench.graph.roles(e).is_constant()
+        {
+            for (base, _) in factors {
+                if self.bench.graph.roles(base).is_constant() {
+                    self.require(base, forms);
+                }
+            }
+        }
         if self.bench.graph.roles(e).is_constant() {
             if !self.constant_pivots.contains(&e) {
                 self.constant_pivots.push(e);
