@@ -160,6 +160,26 @@ fn parts_that_only_forces_couple_cost_what_each_costs() {
     }
 }
 
+/// Springs between beams have sums as factors, which are shorter as the projection gave them than multiplied out, however many there are.
+#[test]
+fn beams_with_springs_cost_what_each_costs() {
+    let beams = |n: usize| {
+        size(&format!(
+            "pub system Beams {{
+                count n = {n};
+                constants {{ m > 0, I > 0, l > 0, k, c, g = 9.81 }}
+                coordinates {{ x[n], y[n], q[n] }}
+                for i in 0..n {{ let end[i] = l/2*vec(cos(q[i]), sin(q[i])); let p[i] = vec(x[i], y[i]); }}
+                kinetic_energy = sum(i in 0..n: m/2*inner(dot(p[i]), dot(p[i])) + I/2*dot(q[i])^2);
+                potential_energy = sum(i in 0..n: m*g*y[i])
+                    + sum(i in 1..n: k/2*norm(p[i] - end[i] - p[i-1] - end[i-1])^2 + c/2*(q[i] - q[i-1])^2);
+            }}"
+        ))
+    };
+    let [few, many] = [10, 20].map(beams);
+    assert!(many.operations < 2.15 * few.operations, "{} {}", few.operations, many.operations);
+}
+
 /// A net of particles with a root for each spring: no point modulo the prime has all of them.
 #[test]
 fn nets_of_particles_have_as_many_springs_as_they_need() {
