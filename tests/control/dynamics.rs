@@ -221,7 +221,7 @@ guen::mechanical_system! {
 }
 
 guen::mechanical_system! {
-    /// The same with forces that are no numbers everywhere.
+    /// The same inertia, with forces that are NaN or infinite at some states.
     pub system Rough {
         inputs { u }
         coordinates { x, q }

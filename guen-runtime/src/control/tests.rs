@@ -449,7 +449,7 @@ fn units_decide_no_equilibrium() {
         let error = steady(&system, 0.0, &start, &[0.0, 0.0], &dropped).unwrap_err();
         assert!(matches!(error, SteadyError::NotFound { residual } if residual > 0.1), "{error}");
     }
-    // What a half turn leaves of a weight is rounding, though no derivative says so.
+    // The weight times sin(pi) is a rounding error. It counts as zero, although no derivative shows its scale.
     let system = Unlike { inertia: 1.0, spring: 0.0, mass: 1.0, weight: 9.81 * core::f64::consts::PI.sin() };
     let none = held([true, true, false, false], [true, true]);
     assert!(steady(&system, 0.0, &[0.0; 4], &[0.0; 2], &none).is_ok());

@@ -173,8 +173,8 @@ where
 /// The reason why there is no motion to measure.
 pub(super) const NO_MOTION: &str =
     "the span is empty, or one of its ends or a number of a start is not finite";
-/// The reason why there is no change of the energy to measure.
-pub(super) const NO_ENERGY: &str = "the system keeps no energy, so there is no change of one to measure";
+/// The reason why the error of the energy cannot be measured.
+pub(super) const NO_ENERGY: &str = "the system does not conserve an energy";
 /// The reason why errors are not measured in the sizes that were given.
 pub(super) const NO_SCALES: &str = "a size that errors are to be divided by is not a positive number";
 

@@ -189,7 +189,7 @@ mod tests {
         ] {
             assert!(!Turn::from_matrix(&none).is_finite(), "{none:?}");
         }
-        // What integration leaves is drawn.
+        // A matrix that integration errors have made a little oblique is still drawn.
         let drifted = [[1.0, 0.03, 0.0], [0.0, 0.99, 0.0], [0.0, 0.0, 1.02]];
         assert!(Turn::from_matrix(&drifted).is_finite());
     }

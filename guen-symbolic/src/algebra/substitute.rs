@@ -22,7 +22,7 @@ use super::support::Support;
 #[derive(Clone, Debug, Default)]
 pub struct Substitution {
     images: FastMap<ExprId, ExprId>,
-    // What is replaced, so far as its symbols are not looked up yet.
+    // Expressions to replace whose symbols have not been collected into `replaced` yet.
     added: Vec<ExprId>,
     // The symbols in what is replaced.
     replaced: Support,

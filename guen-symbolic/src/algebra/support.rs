@@ -2,8 +2,8 @@
 
 use super::symbol::Roles;
 
-/// The symbols of some expressions, by their roles and by a bit for each symbol of a role, by its number modulo 64. What it does not
-/// meet has none of them; what it meets may have none either.
+/// A set of symbols, approximately: their roles, and one bit of 64 for each symbol, chosen by its number among those of its role. Two sets that do not
+/// meet have no symbol in common; two that meet may have none in common either.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub(crate) struct Support {
     roles: Roles,
@@ -25,7 +25,7 @@ impl Support {
         self.roles
     }
 
-    /// Whether there is no symbol at all.
+    /// Whether the set has no symbol.
     pub(super) fn is_empty(self) -> bool {
         self.bits == 0
     }

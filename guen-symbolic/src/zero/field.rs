@@ -251,8 +251,8 @@ pub(crate) fn solve(rows: &[Vec<u64>], right: &[u64]) -> Option<Vec<u64>> {
     Some(solution)
 }
 
-/// The inverse of a symmetric matrix; `None` if there is none. Rows with few entries come first: of those that a frame carries each
-/// has its own and those of the frame, and pivots of the frame would fill all of them.
+/// The inverse of a symmetric matrix; `None` if it is singular. Rows with few entries are eliminated first, which fills least: in an arrow matrix the
+/// dense row comes last.
 pub(crate) fn inverse_of_symmetric(rows: &[Vec<u64>]) -> Option<Vec<Vec<u64>>> {
     let n = rows.len();
     let mut order: Vec<usize> = (0..n).collect();

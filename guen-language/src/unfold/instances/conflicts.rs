@@ -16,15 +16,14 @@ pub(super) fn check(declaration: &Declaration, faults: &mut Faults) {
         .collect();
     for item in &declaration.items {
         match item {
-            Item::Use(instance) if instance.path.text == REAL && is_imported(declaration, REAL) => {
-                let text = format!("a component cannot be used by the name `{REAL}`");
-                let fault = Fault::new(instance.path.name.span(), text);
-                let fault = fault.note(format!("`{REAL}` is the real type of the code that is generated"));
-                faults.report(
-                    fault.help(format!("import it by another name, as `use module::{REAL} as Other`")),
-                );
-            }
             Item::Use(instance) => {
+                if instance.path.text == REAL && is_imported(declaration, REAL) {
+                    let text = format!("a component cannot be used by the name `{REAL}`");
+                    let fault = Fault::new(instance.path.name.span(), text);
+                    let fault = fault.note(format!("`{REAL}` is the real type of generated code"));
+                    let help = format!("import it by another name, as `use module::{REAL} as Other`");
+                    faults.report(fault.help(help));
+                }
                 let name = &instance.name;
                 let text = name.root().to_string();
                 let has_module = |scene: &Name| module_name(&scene.ident, "scene") == text;

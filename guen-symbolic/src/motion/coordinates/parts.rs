@@ -36,7 +36,7 @@ pub(in crate::motion) fn joints_of_one_part(bench: &Workbench, system: &Mechanic
     joints.values().copied().max().unwrap_or(0)
 }
 
-/// Coordinates that are joined, each with another one of its part; none with the one that stands for the part.
+/// A union-find forest over coordinates: each points to another one of its part, and the root stands for the part.
 #[derive(Default)]
 struct Parts {
     joined: BTreeMap<SymbolId, SymbolId>,

@@ -264,8 +264,8 @@ impl At {
         self.is_singular_with(&mass, &touched.into_iter().collect::<Vec<_>>())
     }
 
-    /// Whether a mass matrix is singular that differs from that of the point in the entries of some parameters alone: for the difference `D`
-    /// of these, `det(M + D) = det(M) det(1 + D M^-1)`, and the second determinant is that of their rows and columns.
+    /// Whether a mass matrix is singular. It differs from the one at the point, `M`, in the rows and columns of the `touched` parameters only. With the
+    /// difference `D`, `det(M + D) = det(M) det(1 + D M^-1)`; the second determinant takes the touched rows and columns alone.
     fn is_singular_with(&self, mass: &[Vec<u64>], touched: &[usize]) -> bool {
         let Some(inverse) = &self.inverse else { return field::rank(mass) < mass.len() };
         let differences = touched.iter().map(|s| {
