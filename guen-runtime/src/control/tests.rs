@@ -477,3 +477,22 @@ fn units_of_combinations_decide_no_leaf() {
         );
     }
 }
+
+/// Two rates with one zero, and rounding errors in the derivatives by another state.
+struct Doubled;
+
+impl Linearizable<f64, 2, 1> for Doubled {
+    fn rates(&self, _t: f64, [x, _]: &[f64; 2], _: &[f64; 1]) -> [f64; 2] {
+        [1.0 - x, 2.0 * (1.0 - x)]
+    }
+    fn linearization(&self, _t: f64, _: &[f64; 2], _: &[f64; 1]) -> Linearization<f64, 2, 1> {
+        Linearization { a: [[-1.0, 1e-17], [-2.0, 3e-17]], b: [[0.0]; 2] }
+    }
+}
+
+#[test]
+fn rounding_errors_hold_no_state() {
+    let request = SteadyMotion { drifting: [false; 2], fixed_states: [false; 2], fixed_inputs: [true] };
+    let found = steady(&Doubled, 0.0, &[0.0, 0.0], &[0.0], &request);
+    assert_eq!(found, Err(SteadyError::Family { dimension: 1 }));
+}

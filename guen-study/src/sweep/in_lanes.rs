@@ -12,6 +12,7 @@ use super::design::PointsAt;
 use super::engine::{Engine, Member, Members, state_columns};
 use super::error::SweepError;
 use super::sha256::Sha256;
+use super::statistics::widen;
 use crate::ensemble::{Ensemble, Sampled};
 
 /// Motions that are made ready at a time.
@@ -128,15 +129,10 @@ where
             Keep::Extrema if is_whole => {
                 let mut all = self.times.iter().zip(&sampled.states).map(values);
                 let first = all.next().unwrap_or_default();
-                let (low, high) = all.fold((first.clone(), first), |(mut low, mut high), values| {
-                    for (k, x) in values.into_iter().enumerate() {
-                        // Of zeros with and without a sign the order is theirs, not that of the processor.
-                        low[k] = if x.total_cmp(&low[k]).is_lt() { x } else { low[k] };
-                        high[k] = if x.total_cmp(&high[k]).is_gt() { x } else { high[k] };
-                    }
-                    (low, high)
-                });
-                block.push(*motion, point, 0, low.into_iter().chain(high));
+                let mut ends: Vec<[f64; 2]> = first.into_iter().map(|x| [x, x]).collect();
+                all.for_each(|values| ends.iter_mut().zip(values).for_each(|(ends, x)| widen(ends, x)));
+                let [low, high] = [0, 1].map(|end| ends.iter().map(move |ends| ends[end]));
+                block.push(*motion, point, 0, low.chain(high));
             }
             Keep::End | Keep::Extrema => {}
         }

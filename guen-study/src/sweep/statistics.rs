@@ -290,7 +290,7 @@ impl Group {
                 own_squares.merge(squares);
             }
             own.not_finite += other.not_finite;
-            other.ends.iter().flatten().for_each(|x| own.widen(*x));
+            other.ends.iter().flatten().for_each(|x| widen(own.ends.get_or_insert([*x, *x]), *x));
             own.sketch.merge(&other.sketch);
             own.bins.iter_mut().zip(&other.bins).for_each(|(count, more)| *count += more);
         }
@@ -300,21 +300,20 @@ impl Group {
 impl OfColumn {
     #[inline]
     fn count(&mut self, x: f64) {
-        self.widen(x);
+        widen(self.ends.get_or_insert([x, x]), x);
         self.sketch.add(x);
     }
+}
 
-    /// Moves the ends out to `x` in the total order of doubles, in which zeros with and without a sign differ: otherwise the order of
-    /// motions would show.
-    #[inline]
-    fn widen(&mut self, x: f64) {
-        let [low, high] = self.ends.get_or_insert([x, x]);
-        if x.total_cmp(low).is_lt() {
-            *low = x;
-        }
-        if x.total_cmp(high).is_gt() {
-            *high = x;
-        }
+/// Moves two ends out to `x`, in the total order of doubles: zeros with and without a sign differ in it. Otherwise the result would depend on the
+/// order of the numbers, and on the processor.
+#[inline]
+pub(super) fn widen([low, high]: &mut [f64; 2], x: f64) {
+    if x.total_cmp(low).is_lt() {
+        *low = x;
+    }
+    if x.total_cmp(high).is_gt() {
+        *high = x;
     }
 }
 
@@ -555,6 +554,15 @@ mod tests {
             }
             assert_eq!(merged.text(), all.text());
             assert_eq!(Statistics::parse(&plan(3, groups), &all.text()), Some(all));
+        }
+    }
+
+    #[test]
+    fn ends_do_not_depend_on_the_order_of_zeros() {
+        for zeros in [[0.0, -0.0], [-0.0, 0.0]] {
+            let mut ends = [zeros[0]; 2];
+            widen(&mut ends, zeros[1]);
+            assert_eq!(ends.map(f64::to_bits), [-0.0_f64, 0.0].map(f64::to_bits));
         }
     }
 
