@@ -82,6 +82,28 @@ fn chains() -> String {
     lines
 }
 
+/// Chains of six links that something pulls: the end, or each particle.
+fn pulled_chains() -> String {
+    let end = "p6 - vec(a, b)";
+    let forces = [
+        ("spring", format!("potential_energy = c/2*inner({end}, {end});")),
+        ("rope", format!("potential_energy = c/2*max(norm({end}) - b, 0)^2;")),
+        ("wall", "potential_energy = c/2*max(p6.x - a, 0)^2;".to_owned()),
+        ("damper", "forces { -c*dot(p6) along dot(p6); }".to_owned()),
+        ("air", {
+            let drag = |i: usize| format!("-c*norm(dot(p{i}))*dot(p{i}) along dot(p{i});");
+            format!("forces {{ {} }}", (1..=6).map(drag).collect::<String>())
+        }),
+    ];
+    let row = |(name, item): &(&str, String)| {
+        let text = declaration("Chain", 6, Angles::Absolute);
+        let text = text.replace("g = 9.81", "g = 9.81, a, b, c >= 0");
+        let end = text.rfind('}').unwrap();
+        row(&format!("chain6-{name}"), &format!("{} {item} }}", &text[..end]))
+    };
+    forces.iter().map(row).collect()
+}
+
 /// Vehicles, linkages, arms and robots that are not compiled here.
 fn mechanisms() -> String {
     let in_file = |source: &str| declared(source.parse().unwrap(), 0).to_string();
@@ -134,7 +156,7 @@ fn costs_are_those_of_the_file() {
     let mut carried = CarriedLines(String::new());
     // Each takes as long as the other.
     let others = std::thread::scope(|scope| {
-        let others = scope.spawn(|| chains() + &mechanisms());
+        let others = scope.spawn(|| chains() + &pulled_chains() + &mechanisms());
         visit_all(&mut carried);
         others.join().unwrap()
     });

@@ -290,6 +290,13 @@ impl Graph {
         }
     }
 
+    /// The divisors of some expressions.
+    pub(crate) fn divisors(&self, es: &[ExprId]) -> Vec<ExprId> {
+        let below = self.reachable(es, |_| false).into_iter();
+        let divided = below.flat_map(|id| self.factors(id)).filter(|(_, exponent)| *exponent < 0);
+        divided.map(|(base, _)| *base).collect()
+    }
+
     /// Whether some expression has branches: an absolute value, a sign, a step, a choice.
     pub fn has_branches(&self) -> bool {
         self.branches

@@ -144,12 +144,12 @@ impl Graph {
                 self.div(numerator, denominator)
             }
             // A choice between rates: what the other branch does with its argument is not looked at.
-            Multivariate::Select => self.select(arguments[0], rates[1], rates[2]),
+            Multivariate::Select => self.choice(arguments[0], rates[1], rates[2]),
             Multivariate::Minimum | Multivariate::Maximum => {
                 let difference = self.sub(arguments[0], arguments[1]);
                 match function {
-                    Multivariate::Maximum => self.select(difference, rates[0], rates[1]),
-                    _ => self.select(difference, rates[1], rates[0]),
+                    Multivariate::Maximum => self.choice(difference, rates[0], rates[1]),
+                    _ => self.choice(difference, rates[1], rates[0]),
                 }
             }
             Multivariate::Supplied { .. } => {
@@ -164,6 +164,37 @@ impl Graph {
                 sum
             }
         }
+    }
+
+    /// A choice between rates. One that is not zero has its factors in front that are finite everywhere: derivatives by other coordinates
+    /// have the same choice.
+    fn choice(&mut self, c: ExprId, a: ExprId, b: ExprId) -> ExprId {
+        let rate = match (self.is_zero(a), self.is_zero(b)) {
+            (false, true) => a,
+            (true, false) => b,
+            _ => return self.select(c, a, b),
+        };
+        let (coefficient, monomial) = self.split_coefficient(rate);
+        let factors = match self.node(monomial) {
+            Node::Product(factors) => factors.to_vec(),
+            _ => vec![(monomial, 1)],
+        };
+        let (finite, others): (Vec<_>, Vec<_>) =
+            factors.into_iter().partition(|(base, exponent)| *exponent > 0 && self.is_finite(*base));
+        let [finite, others] = [finite, others].map(|factors| self.product(&factors));
+        let chosen = if rate == a { self.select(c, others, b) } else { self.select(c, a, others) };
+        let product = self.mul(finite, chosen);
+        self.scale(product, &coefficient)
+    }
+
+    /// Whether a polynomial in symbols, sines and cosines: what is finite wherever the symbols are.
+    fn is_finite(&self, e: ExprId) -> bool {
+        self.reachable(&[e], |_| false).into_iter().all(|id| match self.node(id) {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Sum { .. } | Node::Kept(_) => true,
+            Node::Product(factors) => factors.iter().all(|(_, exponent)| *exponent > 0),
+            Node::Function(function, _) => matches!(function, Function::Sin | Function::Cos),
+            Node::Multivariate(..) | Node::Undefined => false,
+        })
     }
 
     /// The function by whose zeros a piecewise function changes its branch; none of any other node.
@@ -217,6 +248,37 @@ mod tests {
         let smaller = g.minimum(x, y);
         let by_x_of_smaller = Flow::partial(&g, x).of(&mut g, smaller);
         assert_ne!(by_x, by_x_of_smaller);
+    }
+
+    /// A rope that is slack has a length of zero somewhere: what is not finite there stays behind the choice.
+    #[test]
+    fn factors_that_are_finite_stand_before_a_choice() {
+        let mut g = Graph::new();
+        let [x, y, l] = ["x", "y", "l"].map(|name| g.symbol(name, Role::Coordinate));
+        let (cosine, squares) = (g.cos(y), [x, y].map(|e| g.powi(e, 2)));
+        let square = g.sum(squares);
+        let (length, zero) = (g.sqrt(square), g.zero());
+        let product = g.mul(length, cosine);
+        let stretch = g.sub(product, l);
+        let opposite = g.neg(product);
+        let pull = g.maximum(stretch, zero);
+        let least = g.minimum(product, zero);
+        let (one, inverse) = (g.one(), g.product(&[(length, 1), (square, -1)]));
+        let minus_one = g.number(-1);
+        for (e, along, c, finite, chosen) in [
+            (pull, x, stretch, &[(x, 1), (cosine, 1)][..], inverse),
+            (pull, l, stretch, &[(minus_one, 1)], one),
+            // The other branch of a minimum.
+            (least, x, opposite, &[(x, 1), (cosine, 1)], inverse),
+        ] {
+            let found = Flow::partial(&g, along).of(&mut g, e);
+            let opposite = g.neg(c);
+            // The order of the arguments says nothing.
+            let choices = [g.select(c, chosen, zero), g.select(opposite, zero, chosen)];
+            let finite = g.product(finite);
+            let expected = choices.map(|choice| g.mul(finite, choice));
+            assert!(expected.contains(&found), "{}", g.text(found));
+        }
     }
 
     #[test]

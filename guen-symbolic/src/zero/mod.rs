@@ -519,6 +519,9 @@ impl ZeroTest {
     }
 
     fn residues_of(&mut self, g: &Graph, e: ExprId, on_manifold: bool, roots: bool) -> Residues {
+        if roots && self.vanishes_whatever_roots_are(g, e, on_manifold) {
+            return Residues::Vanish;
+        }
         let wanted = if roots { POINTS_WITH_ROOTS } else { POINTS };
         let (mut seen, mut in_vain) = (0, 0);
         for number in 0..DRAWS {
@@ -549,6 +552,15 @@ impl ZeroTest {
             return Residues::Vanish;
         }
         Residues::Few
+    }
+
+    /// Whether an expression vanishes at points with drawn roots, as many as without any roots.
+    fn vanishes_whatever_roots_are(&mut self, g: &Graph, e: ExprId, on_manifold: bool) -> bool {
+        (0..POINTS).all(|number| {
+            let point = self.sample(g, number, on_manifold);
+            let (table, samples) = self.parts(on_manifold);
+            point.is_some_and(|point| samples[point].with_drawn_roots().value(g, table, e) == Some(0))
+        })
     }
 
     /// The real point of a number, which is made once; `None` if there is no such point.

@@ -27,6 +27,8 @@ pub(crate) struct Sample {
     squares: bool,
     /// Whether symbols have any values, whatever is promised of them.
     is_unbound: bool,
+    /// Whether roots, absolute values and signs are drawn for their arguments.
+    has_drawn_roots: bool,
     generation: u32,
     /// Symbols with values other than their draw: those that a constraint determines.
     pub(crate) fixed: FastMap<SymbolId, u64>,
@@ -48,8 +50,14 @@ impl Sample {
 
     /// Returns the point without values.
     pub(crate) fn fresh(&self) -> Self {
-        let Sample { seed, squares, is_unbound, ref fixed, .. } = *self;
-        Sample { seed, squares, is_unbound, fixed: fixed.clone(), ..Sample::default() }
+        let Sample { seed, squares, is_unbound, has_drawn_roots, ref fixed, .. } = *self;
+        Sample { seed, squares, is_unbound, has_drawn_roots, fixed: fixed.clone(), ..Sample::default() }
+    }
+
+    /// Returns the point without values, with numbers drawn for roots, absolute values and signs. What vanishes there does for any values
+    /// of these, and so for the true ones; what does not may vanish all the same, as `sqrt(x)^2 - x` does.
+    pub(crate) fn with_drawn_roots(&self) -> Self {
+        Sample { has_drawn_roots: true, ..self.fresh() }
     }
 
     /// Returns the point with a symbol at zero, given all nodes that depend on it.
@@ -222,6 +230,9 @@ impl Sample {
                     Function::Tanh => Some(mul(sub(e, inverse), field::inverse(add(e, inverse))?)),
                     _ => None,
                 }
+            }
+            Op::At(function, x) if self.has_drawn_roots => {
+                Some(self.draw(OF_ATOM + function.code() * 256, at(x)))
             }
             Op::At(Function::Root(q), x) => field::root(at(x), *q),
             Op::At(Function::Abs, x) => field::sqrt(mul(at(x), at(x))),

@@ -141,7 +141,7 @@ impl Definition {
         Ok(false)
     }
 
-    /// Compares values at as many points as it takes: at many, where signs may be right by chance. `differs` is given
+    /// Compares values at as many points as it takes: where signs may be right by chance with drawn ones first, then at many. `differs` is given
     /// the values of some expressions, and returns the row that differs, if any.
     fn compare_values(
         &self,
@@ -154,28 +154,34 @@ impl Definition {
         let on_manifold = on_manifold && bench.zero.manifold_has_points();
         let all = [es, &system.expressions()].concat();
         let signs = all.iter().any(|e| bench.zero.has_signs_or_roots(&bench.graph, *e));
-        let (wanted, enough) = if signs {
-            (FEWEST_POINTS_WITH_ROOTS, PROOF_POINTS_WITH_SIGNS)
-        } else {
-            (PROOF_POINTS, PROOF_POINTS)
+        let mut look = |wanted: usize, enough: usize, has_drawn_roots: bool| {
+            let (mut seen, mut in_vain) = (0, 0);
+            for number in 0.. {
+                let Some(sample) = bench.zero.fresh(&bench.graph, number, on_manifold) else { break };
+                let sample = if has_drawn_roots { sample.with_drawn_roots() } else { sample };
+                let row = self.at_points.point(bench, system, sample).and_then(|mut point| {
+                    let values = point.values(es)?;
+                    differs(&mut point, &values)
+                });
+                match row {
+                    Some(Some(row)) => return Seen::Differs(row),
+                    Some(None) => (seen, in_vain) = (seen + 1, 0),
+                    None => in_vain += 1,
+                }
+                if seen == wanted || in_vain > REDRAWS {
+                    break;
+                }
+            }
+            if seen >= enough { Seen::Holds } else { Seen::Few }
         };
-        let (mut seen, mut in_vain) = (0, 0);
-        for number in 0.. {
-            let Some(sample) = bench.zero.fresh(&bench.graph, number, on_manifold) else { break };
-            let row = self.at_points.point(bench, system, sample).and_then(|mut point| {
-                let values = point.values(es)?;
-                differs(&mut point, &values)
-            });
-            match row {
-                Some(Some(row)) => return Seen::Differs(row),
-                Some(None) => (seen, in_vain) = (seen + 1, 0),
-                None => in_vain += 1,
-            }
-            if seen == wanted || in_vain > REDRAWS {
-                break;
-            }
+        if !signs {
+            return look(PROOF_POINTS, PROOF_POINTS, false);
         }
-        if seen >= enough { Seen::Holds } else { Seen::Few }
+        match look(PROOF_POINTS, PROOF_POINTS, true) {
+            Seen::Holds => Seen::Holds,
+            // Without what roots are, equal values may differ.
+            _ => look(FEWEST_POINTS_WITH_ROOTS, PROOF_POINTS_WITH_SIGNS, false),
+        }
     }
 
     /// Whether equations hold, if points decide that: residues may differ where functions do not.
@@ -436,6 +442,38 @@ pub(in crate::motion) mod tests {
             assert_eq!(is_solved_by(force), Some(true), "{k}");
             assert_ne!(is_solved_by(other), Some(true), "{k}");
         }
+    }
+
+    /// Of the points modulo the prime one in 2^20 has all the roots of twenty.
+    #[test]
+    fn many_roots_are_as_good_as_few() {
+        let mut bench = Workbench::new(Graph::new());
+        let point = system(&mut bench, &["x"], 1, |graph, _, v, _| {
+            let (zero, one) = (graph.zero(), graph.one());
+            let square = graph.powi(v[0], 2);
+            (vec![Form { row: vec![one], offset: zero }], graph.scale(square, &Rational::new(1, 2)), zero)
+        });
+        let (mut frame, _) = written(&mut bench, &point);
+        let x = point.forms.coordinates[0];
+        let square = bench.graph.powi(x, 2);
+        let length = |bench: &mut Workbench, k: i64| {
+            let number = bench.graph.number(Rational::integer(k));
+            let sum = bench.graph.add(number, square);
+            bench.graph.sqrt(sum)
+        };
+        let lengths: Vec<ExprId> = (1..=20).map(|k| length(&mut bench, k)).collect();
+        let force = bench.graph.sum(lengths.clone());
+        let mut definition = Definition::new(&mut bench, &point, &[force]);
+        let mut is_solved_by = |bench: &mut Workbench, rate| {
+            definition.is_solved_by(bench, (&point, &mut frame), &[point.etas[0], rate]).ok()
+        };
+        assert_eq!(is_solved_by(&mut bench, force), Some(true));
+        let twice = bench.graph.add(force, lengths[7]);
+        assert_ne!(is_solved_by(&mut bench, twice), Some(true));
+        let other = length(&mut bench, 21);
+        let wrong = bench.graph.sub(force, lengths[7]);
+        let wrong = bench.graph.add(wrong, other);
+        assert_ne!(is_solved_by(&mut bench, wrong), Some(true));
     }
 
     /// A pendulum whose length is one on the constraint.

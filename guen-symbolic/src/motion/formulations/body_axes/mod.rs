@@ -17,7 +17,6 @@
 mod slopes;
 mod spin;
 
-pub(super) use self::slopes::divisors;
 use self::spin::{Flows, Spin, column, in_parameters};
 use crate::algebra::{ExprId, Flow, Rational};
 use crate::motion::coordinates::restriction::{self, Restriction};

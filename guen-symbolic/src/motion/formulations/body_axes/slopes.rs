@@ -3,7 +3,7 @@
 //! Along the motion the rates of angles next to a pole are huge, and cancel in sums that no program finds. Along each operator,
 //! in normal form, they are not there.
 
-use crate::algebra::{ExprId, Graph, Node};
+use crate::algebra::ExprId;
 use crate::motion::coordinates::restriction::{Restriction, written_out};
 use crate::motion::thresholds::{COMPONENT_TERMS, COMPONENTS_DIFFERENTIATED};
 use crate::normal::{Limits, normal_form};
@@ -86,7 +86,7 @@ fn shortest(
         best.push(normal_written_out(bench, restriction, *e)?);
     }
     let (own, mut factor) = (best.clone(), bench.graph.one());
-    let divided = divisors(&bench.graph, &own);
+    let divided = bench.graph.divisors(&own);
     let mut least = weighted_cost(&bench.graph, &best);
     for component in components {
         let (mut quotients, mut cost) = (Vec::new(), 0);
@@ -95,7 +95,7 @@ fn shortest(
             let Some(quotient) = normal_written_out(bench, restriction, quotient) else { break };
             quotients.push(quotient);
             cost = weighted_cost(&bench.graph, &quotients);
-            if cost >= least || divisors(&bench.graph, &[quotient]).iter().any(|e| !divided.contains(e)) {
+            if cost >= least || bench.graph.divisors(&[quotient]).iter().any(|e| !divided.contains(e)) {
                 quotients.clear();
                 break;
             }
@@ -105,15 +105,4 @@ fn shortest(
         }
     }
     Some((factor, best))
-}
-
-/// Returns the divisors of some expressions.
-pub(in crate::motion) fn divisors(graph: &Graph, es: &[ExprId]) -> Vec<ExprId> {
-    let mut found = Vec::new();
-    for id in graph.reachable(es, |_| false) {
-        if let Node::Product(factors) = graph.node(id) {
-            found.extend(factors.iter().filter(|(_, exponent)| *exponent < 0).map(|(base, _)| *base));
-        }
-    }
-    found
 }

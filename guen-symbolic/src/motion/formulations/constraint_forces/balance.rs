@@ -423,12 +423,15 @@ fn is_certain(bench: &Workbench, e: ExprId) -> bool {
 }
 
 /// Whether an expression divides by nothing but what is known to differ from zero.
-pub(super) fn divides_safely(bench: &Workbench, e: ExprId) -> bool {
-    let graph = &bench.graph;
-    graph.reachable(&[e], |_| false).into_iter().all(|id| match graph.node(id) {
-        Node::Product(factors) => factors.iter().all(|(base, k)| *k > 0 || graph.manifestly_nonzero(*base)),
-        _ => true,
-    })
+fn divides_safely(bench: &Workbench, e: ExprId) -> bool {
+    divides_as(bench, e, bench.graph.one())
+}
+
+/// Whether an expression divides by nothing but what another one divides by, or is known to differ from zero.
+pub(super) fn divides_as(bench: &Workbench, e: ExprId, other: ExprId) -> bool {
+    let known = bench.graph.divisors(&[other]);
+    let divided = bench.graph.divisors(&[e]);
+    divided.into_iter().all(|base| known.contains(&base) || bench.graph.manifestly_nonzero(base))
 }
 
 /// Returns a common factor of products that none of them loses by division. Constants that might vanish are left.

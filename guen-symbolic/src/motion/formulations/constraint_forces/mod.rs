@@ -39,7 +39,7 @@ use crate::motion::thresholds::DENSE_COST;
 use crate::workbench::Workbench;
 use balance::{Balance, balance};
 use pattern::Pattern;
-use system::{System, summands, terms};
+use system::{System, spread, summands, terms, with_whole_factors};
 
 pub(super) use tree::{Differences, Edge};
 
@@ -152,8 +152,10 @@ pub(super) fn solve(
     let mut rest: Vec<Vec<ExprId>> = (0..l)
         .map(|s| {
             let e = bench.graph.add(rest[s], forces[s]);
+            let e = with_whole_factors(bench, e);
             // A limit on the work for an expression would make the members of a long family different.
-            if bench.graph.nests_sums() { summands(bench, e) } else { terms(bench, e, etas) }
+            let found = if bench.graph.nests_sums() { summands(bench, e) } else { terms(bench, e, etas) };
+            spread(bench, found)
         })
         .collect();
     let constant = constant_reactions(bench, &rows, &inverse, &mut rest);
@@ -266,10 +268,12 @@ fn constant_reactions(
             row.entries().iter().map(|(s, _)| (*s, rest[*s].clone())).collect();
         let mut best = (dearness(&own), None);
         for (s, b) in row.entries() {
+            let is_its_own = matches!(inverse[*s].entries(), [(own, _)] if *own == k);
             let mut ratios = Vec::new();
             for term in &rest[*s] {
                 let ratio = bench.graph.div(*term, *b);
-                if bench.graph.roles(ratio).is_constant() && balance::divides_safely(bench, ratio) {
+                let is_known = bench.graph.roles(ratio).is_constant() || !is_its_own;
+                if is_known && balance::divides_as(bench, ratio, *term) {
                     ratios.push(ratio);
                 }
             }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::algebra::{ExprId, FastMap, Node, Rational};
+use crate::algebra::{ExprId, FastMap, Node, Rational, Substitution};
 use crate::motion::coordinates::relative_angles::RelativeAngles;
 use crate::motion::mass_matrix::solve::{Elimination, Naming, eliminate};
 use crate::motion::mass_matrix::sparse::Vector;
@@ -140,6 +140,29 @@ impl System {
     }
 }
 
+/// A force with the sums that are factors of it whole: that of a spring has the place of its end as a factor, to which all links add.
+pub(super) fn with_whole_factors(bench: &mut Workbench, e: ExprId) -> ExprId {
+    let mut whole = Substitution::default();
+    let mut inner: BTreeSet<ExprId> = BTreeSet::new();
+    for id in bench.graph.reachable(&[e], |_| false) {
+        let mut is_inner = bench.graph.children(id).iter().any(|part| inner.contains(part));
+        if !is_inner {
+            for (base, _) in bench.graph.factors(id).to_vec() {
+                let roles = bench.graph.roles(base);
+                if summands(bench, base).len() > 1 && !roles.is_constant() {
+                    let kept = bench.graph.keep(base);
+                    whole.add(base, kept);
+                    is_inner = true;
+                }
+            }
+        }
+        if is_inner {
+            inner.insert(id);
+        }
+    }
+    whole.of(&mut bench.graph, e)
+}
+
 /// The terms of a polynomial in the parameters with tidy coefficients, or of the sum as it is.
 pub(super) fn terms(bench: &mut Workbench, e: ExprId, etas: &[ExprId]) -> Vec<ExprId> {
     let limits = Limits { nodes: 400, steps: 6_000, ..Limits::default() };
@@ -171,6 +194,31 @@ pub(super) fn summands(bench: &mut Workbench, e: ExprId) -> Vec<ExprId> {
         _ if bench.graph.is_zero(e) => Vec::new(),
         _ => vec![e],
     }
+}
+
+/// Terms with the sums multiplied out that are factors of them and depend on the state.
+pub(super) fn spread(bench: &mut Workbench, terms: Vec<ExprId>) -> Vec<ExprId> {
+    let mut found = Vec::new();
+    let mut open = terms;
+    while let Some(term) = open.pop() {
+        let (_, monomial) = bench.graph.split_coefficient(term);
+        let factors = bench.graph.factors(monomial).to_vec();
+        let is_sum = |(base, k): &(ExprId, i32)| {
+            *k == 1
+                && matches!(bench.graph.node(*base), Node::Sum { .. })
+                && !bench.graph.roles(*base).is_constant()
+        };
+        let Some((sum, _)) = factors.into_iter().find(is_sum) else {
+            found.push(term);
+            continue;
+        };
+        let others = bench.graph.div(term, sum);
+        for part in summands(bench, sum) {
+            open.push(bench.graph.mul(others, part));
+        }
+    }
+    found.reverse();
+    found
 }
 
 /// The constant factor that most of the expressions have that are not constant, of positive sign; one if it might vanish.

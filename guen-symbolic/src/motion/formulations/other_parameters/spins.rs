@@ -45,7 +45,7 @@ pub(in crate::motion) fn rates(
     let Restated { system, frame: by_spins, forces, projected } = &mut restated;
     let turned = body_axes::in_any_chart(bench, system, by_spins, &projected.forms)?;
     // Where it divides by an edge of the spins, a mass matrix in other parameters may be regular there.
-    let divisors = body_axes::divisors(&bench.graph, &turned.equations.mass.concat());
+    let divisors = bench.graph.divisors(&turned.equations.mass.concat());
     if divisors.into_iter().any(|divisor| is_among(bench, divisor, &own)) {
         return None;
     }
