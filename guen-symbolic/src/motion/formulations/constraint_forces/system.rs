@@ -201,7 +201,14 @@ pub(super) fn spread(bench: &mut Workbench, terms: Vec<ExprId>) -> Vec<ExprId> {
     let mut found = Vec::new();
     let mut open = terms;
     while let Some(term) = open.pop() {
-        let (_, monomial) = bench.graph.split_coefficient(term);
+        let (coefficient, monomial) = bench.graph.split_coefficient(term);
+        // The opposite of a sum.
+        if let Node::Sum { .. } = bench.graph.node(monomial) {
+            open.extend(
+                summands(bench, monomial).into_iter().map(|part| bench.graph.scale(part, &coefficient)),
+            );
+            continue;
+        }
         let factors = bench.graph.factors(monomial).to_vec();
         let is_sum = |(base, k): &(ExprId, i32)| {
             *k == 1
@@ -214,7 +221,8 @@ pub(super) fn spread(bench: &mut Workbench, terms: Vec<ExprId>) -> Vec<ExprId> {
         };
         let others = bench.graph.div(term, sum);
         for part in summands(bench, sum) {
-            open.push(bench.graph.mul(others, part));
+            let product = bench.graph.mul(others, part);
+            open.extend(summands(bench, product));
         }
     }
     found.reverse();
