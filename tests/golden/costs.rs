@@ -104,6 +104,25 @@ fn pulled_chains() -> String {
     forces.iter().map(row).collect()
 }
 
+/// An arm of six joints whose tool something pulls.
+fn pulled_arms() -> String {
+    let tool = "let tool = c6 + R6*vec(0, 0, l/3);";
+    let forces = [
+        ("spring", "potential_energy = s/2*inner(tool - vec(a, b, h), tool - vec(a, b, h));"),
+        ("rope", "potential_energy = s/2*max(norm(tool - vec(a, b, h)) - b, 0)^2;"),
+        ("floor", "potential_energy = s/2*max(h - tool.z, 0)^2;"),
+        ("damper", "forces { -s*dot(tool) along dot(tool); }"),
+        ("follow", "inputs { x, y, z } forces { s*(vec(x, y, z) - tool) - b*dot(tool) along dot(tool); }"),
+    ];
+    let row = |(name, item): &(&str, &str)| {
+        let text =
+            arms::declaration("Arm", &arms::AXES[..6]).replace("g = 9.81", "g = 9.81, a, b, h, s >= 0");
+        let end = text.rfind('}').unwrap();
+        row(&format!("arm6-{name}"), &format!("{} {tool} {item} }}", &text[..end]))
+    };
+    forces.iter().map(row).collect()
+}
+
 /// Vehicles, linkages, arms and robots that are not compiled here.
 fn mechanisms() -> String {
     let in_file = |source: &str| declared(source.parse().unwrap(), 0).to_string();
@@ -156,7 +175,7 @@ fn costs_are_those_of_the_file() {
     let mut carried = CarriedLines(String::new());
     // Each takes as long as the other.
     let others = std::thread::scope(|scope| {
-        let others = scope.spawn(|| chains() + &pulled_chains() + &mechanisms());
+        let others = scope.spawn(|| chains() + &pulled_chains() + &pulled_arms() + &mechanisms());
         visit_all(&mut carried);
         others.join().unwrap()
     });

@@ -92,7 +92,7 @@ impl Evaluator<'_> {
         let axis = ["x", "y", "z"].iter().position(|axis| *axis == name.text);
         match (&value, axis) {
             (Value::Vector(v), Some(i)) => {
-                self.shapes.taken(&self.bench.graph, v, i);
+                self.shapes.taken(&mut self.bench.graph, v, i);
                 Ok(Value::Scalar(v[i]))
             }
             // The body's axes in the world are the columns of the matrix.
@@ -244,7 +244,7 @@ impl Evaluator<'_> {
             "inner" => {
                 let (u, v) = (self.vector(function, &values[0])?, self.vector(function, &values[1])?);
                 let product = inner(&mut self.bench, &u, &v);
-                self.shapes.inner(&self.bench.graph, &u, &v, product);
+                self.shapes.inner(&mut self.bench.graph, &u, &v, product);
                 self.check_size(product, function.span())
             }
             "cross" => {
@@ -257,7 +257,7 @@ impl Evaluator<'_> {
                 let square = inner(&mut self.bench, &v, &v);
                 let square = self.bench.tidy(square);
                 let length = self.bench.graph.sqrt(square);
-                self.shapes.length(&self.bench.graph, &v, length);
+                self.shapes.length(&mut self.bench.graph, &v, length);
                 if text == "norm" {
                     return Ok(Value::Scalar(length));
                 }

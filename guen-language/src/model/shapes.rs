@@ -24,6 +24,9 @@ pub(super) struct Shapes {
     heights: BTreeMap<ExprId, (usize, Place)>,
 }
 
+/// The components of velocities that the rate of a function of places is the sum of, at most.
+const MOST_COMPONENTS: usize = 6;
+
 const MOVING: Roles = Roles::of(Role::Velocity)
     .or(Roles::of(Role::QuasiVelocity))
     .or(Roles::of(Role::QuasiAcceleration))
@@ -211,7 +214,13 @@ impl Shapes {
     }
 
     /// `inner(u, v)` is `product`.
-    pub(super) fn inner(&mut self, graph: &Graph, u: &Vector, v: &Vector, product: ExprId) {
+    pub(super) fn inner(&mut self, graph: &mut Graph, u: &Vector, v: &Vector, product: ExprId) {
+        if !is_moving(graph, u) && !is_moving(graph, v) {
+            self.scalar(graph, product, [(u, v), (v, u)]);
+            self.components(graph, u);
+            self.components(graph, v);
+            return;
+        }
         let (direction, velocity) = match (is_moving(graph, u), is_moving(graph, v)) {
             (false, true) => (u, v),
             (true, false) => (v, u),
@@ -223,24 +232,77 @@ impl Shapes {
     }
 
     /// `norm(v)` is `length`.
-    pub(super) fn length(&mut self, graph: &Graph, v: &Vector, length: ExprId) {
+    pub(super) fn length(&mut self, graph: &mut Graph, v: &Vector, length: ExprId) {
+        if is_moving(graph, v) {
+            return;
+        }
         let lengths = &mut self.system.lengths;
         if self.places.contains_key(v)
             && !graph.roles(length).is_constant()
             && lengths.iter().all(|(known, _)| *known != length)
         {
             lengths.push((length, self.places[v].clone()));
+            let inverse = graph.powi(length, -1);
+            let unit = v.map(|e| graph.mul(e, inverse));
+            self.scaled(graph, inverse, v, unit);
+            self.scalar(graph, length, [(&unit, v)]);
         }
     }
 
+    /// The components of a place, of which a function is made.
+    fn components(&mut self, graph: &mut Graph, v: &Vector) {
+        for i in 0..3 {
+            self.scalar(graph, v[i], [(&axis(graph, i), v)]);
+        }
+    }
+
+    /// A function of places whose rate is the sum of components of velocities, each of a place along a direction.
+    fn scalar<const N: usize>(&mut self, graph: &mut Graph, e: ExprId, parts: [(&Vector, &Vector); N]) {
+        let mut shape = FormShape { components: Vec::new(), rest: graph.zero() };
+        for (direction, v) in parts {
+            if v.iter().any(|e| !graph.roles(*e).is_constant()) {
+                let velocity = Velocity::of(graph, Motion::Rate(self.place(graph, v)));
+                let components =
+                    vec![VelocityComponent { direction: self.place(graph, direction), velocity }];
+                shape = shape.plus(graph, &FormShape { components, rest: graph.zero() });
+            }
+        }
+        self.remember_scalar(graph, e, shape);
+    }
+
+    fn remember_scalar(&mut self, graph: &mut Graph, e: ExprId, shape: FormShape) {
+        // A coordinate says what it is.
+        if shape.components.is_empty() || matches!(graph.node(e), Node::Symbol(_) | Node::Number(_)) {
+            return;
+        }
+        // In products sums have no factor in common.
+        let (content, primitive) = graph.split_content(e);
+        if primitive != e
+            && let Some(inverse) = content.recip()
+        {
+            let inverse = graph.number(inverse);
+            let shape = shape.times(graph, inverse);
+            self.system.scalars.entry(primitive).or_insert(shape);
+        }
+        self.system.scalars.entry(e).or_insert(shape);
+    }
+
+    /// A function of places or a constant, as a function of places.
+    fn scalar_or_constant(&self, graph: &Graph, e: ExprId) -> Option<FormShape> {
+        let constant = || FormShape { components: Vec::new(), rest: graph.zero() };
+        let known = self.system.scalars.get(&e).cloned();
+        known.or_else(|| graph.roles(e).is_constant().then(constant))
+    }
+
     /// `v.x`, `v.y` or `v.z`.
-    pub(super) fn taken(&mut self, graph: &Graph, v: &Vector, i: usize) {
+    pub(super) fn taken(&mut self, graph: &mut Graph, v: &Vector, i: usize) {
         if is_moving(graph, v)
             && let Some(shape) = self.component(graph, v, i)
         {
             self.remember_form(graph, v[i], shape);
         } else if let Some(place) = self.places.get(v) {
             self.heights.entry(v[i]).or_insert((i, place.clone()));
+            self.scalar(graph, v[i], [(&axis(graph, i), v)]);
         }
     }
 
@@ -260,6 +322,13 @@ impl Shapes {
             let shape = self.form_or_rest(a).plus(graph, &self.form_or_rest(b));
             self.remember_form(graph, sum, shape);
         }
+        if let (Some(a), Some(b)) = (self.scalar_or_constant(graph, a), self.scalar_or_constant(graph, b)) {
+            // Sums of many are looked at term by term.
+            if a.components.len() + b.components.len() <= MOST_COMPONENTS {
+                let shape = a.plus(graph, &b);
+                self.remember_scalar(graph, sum, shape);
+            }
+        }
         // A height above another level.
         for (height, level) in [(a, b), (b, a)] {
             if graph.roles(level).is_constant()
@@ -278,6 +347,12 @@ impl Shapes {
             {
                 let shape = known.times(graph, factor);
                 self.remember_form(graph, product, shape);
+            }
+            if let Some(known) = self.system.scalars.get(&e)
+                && graph.roles(factor).is_constant()
+            {
+                let shape = known.times(graph, factor);
+                self.remember_scalar(graph, product, shape);
             }
         }
     }

@@ -456,7 +456,7 @@ impl Graph {
     }
 
     /// Content and primitive part of a sum: `sum = content * primitive`, the first coefficient of the primitive positive.
-    pub(crate) fn split_content(&mut self, id: ExprId) -> (Rational, ExprId) {
+    pub fn split_content(&mut self, id: ExprId) -> (Rational, ExprId) {
         if self.is_primitive(id) {
             return (Rational::ONE, id);
         }

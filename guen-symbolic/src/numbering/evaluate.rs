@@ -21,7 +21,7 @@ impl Numbering {
                 continue;
             }
             match self.ops[place] {
-                Op::Expr(e) => leaves.push((place, e)),
+                Op::Expr(e) | Op::Function(e, _) => leaves.push((place, e)),
                 _ => stack.extend(self.children(place).iter().flatten().map(|child| child.index())),
             }
         }
@@ -48,7 +48,7 @@ impl Numbering {
                 if a.is_negative() { -value } else { value }
             };
             found[place] = Some(match self.ops[place] {
-                Op::Expr(_) => f64::NAN,
+                Op::Expr(_) | Op::Function(..) => f64::NAN,
                 Op::Sum(a, b) => at(a) + at(b),
                 Op::Product(a, b) => at(a) * at(b),
                 Op::Quotient(a, b) => at(a) / at(b),

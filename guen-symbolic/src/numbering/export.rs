@@ -1,7 +1,7 @@
 //! Numbered expressions as expressions of the graph.
 
 use super::{Num, Numbering, Op};
-use crate::algebra::{ExprId, Graph};
+use crate::algebra::{ExprId, Graph, Node};
 
 impl Numbering {
     /// Returns the numbers below some numbers, children first, and how often each is used; not below constants.
@@ -38,7 +38,7 @@ impl Numbering {
         let (order, _) = self.reached(roots);
         let weight = |index: &usize| match self.ops[*index] {
             _ if self.constant[*index] => 0,
-            Op::Expr(_) => 0,
+            Op::Expr(_) | Op::Function(..) => 0,
             Op::Sum(..) | Op::Product(..) => 1,
             Op::Quotient(..) => 4,
             Op::SquareRoot(_) => 6,
@@ -96,6 +96,15 @@ impl Numbering {
     fn built(&self, graph: &mut Graph, done: &[Option<ExprId>], index: usize) -> ExprId {
         match self.ops[index] {
             Op::Expr(e) => e,
+            Op::Function(e, arguments) => {
+                let arguments: Vec<ExprId> =
+                    arguments.into_iter().flatten().map(|a| signed(graph, done, a)).collect();
+                match (graph.node(e).clone(), &arguments[..]) {
+                    (Node::Function(function, _), [x]) => graph.function(function, *x),
+                    (Node::Multivariate(function, _), arguments) => graph.multivariate(function, arguments),
+                    _ => e,
+                }
+            }
             Op::Sum(a, b) => {
                 let (a, b) = (signed(graph, done, a), signed(graph, done, b));
                 graph.add(a, b)

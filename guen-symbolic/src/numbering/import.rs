@@ -8,6 +8,9 @@ use crate::zero::field;
 /// The roles of symbols that have no value of their own at a point, but the one that the motion gives them.
 const MOVING: Roles = Roles::of(Role::Velocity).or(Roles::of(Role::QuasiAcceleration));
 
+/// The roles of symbols that places and velocities depend on.
+const STATE: Roles = Roles::of(Role::Coordinate).or(Roles::of(Role::QuasiVelocity));
+
 impl Numbering {
     /// Says what a symbol stands for.
     pub(crate) fn define(&mut self, symbol: ExprId, value: Num) {
@@ -42,10 +45,20 @@ impl Numbering {
             if constant {
                 return self.push(Op::Expr(e), residue, true);
             }
+            if let Some(multiple) = self.multiple_of_known(bench, e, residue) {
+                return multiple;
+            }
         }
         match bench.graph.node(e).clone() {
             Node::Kept(x) => self.import(bench, x),
             Node::Sum { constant, terms } => {
+                if let Some((place, others)) = self.place_in(bench, &terms) {
+                    let number = bench.graph.number(constant);
+                    let others = bench.graph.linear(&others);
+                    let others = bench.graph.add(others, number);
+                    let others = self.import(bench, others);
+                    return self.add(place, others);
+                }
                 let constant = bench.graph.number(constant);
                 let mut sum = self.import(bench, constant);
                 for (term, c) in terms.iter() {
@@ -74,10 +87,84 @@ impl Numbering {
                 self.push(Op::Expr(e), field::mix(e.index() as u64) % field::PRIME, constant)
             }
             _ => match residue {
-                Some(residue) => self.push(Op::Expr(e), residue, constant),
+                Some(residue) => match self.arguments(bench, e) {
+                    Some(arguments) => self.push(Op::Function(e, arguments), residue, constant),
+                    None => self.push(Op::Expr(e), residue, constant),
+                },
                 None => self.fail(),
             },
         }
+    }
+
+    /// Sums are looked up as multiples of what is numbered, too: in products they have no factor in common, as an expression given has.
+    pub(crate) fn look_for_multiples(&mut self, bench: &mut Workbench, e: ExprId) {
+        /// Of many expressions hardly one has another factor.
+        const MOST_MULTIPLES: usize = 12;
+        let (content, _) = bench.graph.split_content(e);
+        if !content.is_one()
+            && let Some(inverse) = content.recip()
+            && self.multiples.len() < MOST_MULTIPLES
+            && !self.multiples.contains(&inverse)
+        {
+            self.multiples.push(inverse);
+        }
+    }
+
+    /// A sum as a multiple of something numbered.
+    fn multiple_of_known(&mut self, bench: &mut Workbench, e: ExprId, residue: u64) -> Option<Num> {
+        if self.multiples.is_empty()
+            || !matches!(bench.graph.node(e), Node::Sum { terms, .. } if terms.len() > 1)
+        {
+            return None;
+        }
+        self.multiples.clone().into_iter().find_map(|factor| {
+            let part = field::mul(residue, field::inverse(field::residue(&factor)?)?);
+            let known = self.with_residue(part).filter(|known| !self.is_constant(*known))?;
+            Some(self.times(bench, &factor, known))
+        })
+    }
+
+    /// The terms of a sum that depend on the state, where their sum is numbered, and the others: the end of an arm stands beside the place
+    /// that it is wanted at.
+    fn place_in(
+        &mut self,
+        bench: &mut Workbench,
+        terms: &[(ExprId, Rational)],
+    ) -> Option<(Num, Vec<(ExprId, Rational)>)> {
+        let moves = |(e, _): &(ExprId, Rational)| bench.graph.roles(*e).meets(STATE);
+        let (place, others): (Vec<_>, Vec<_>) = terms.iter().cloned().partition(moves);
+        if place.len() < 2 || others.is_empty() {
+            return None;
+        }
+        let place = bench.graph.linear(&place);
+        if bench.graph.roles(place).meets(MOVING) {
+            return None;
+        }
+        let residue = self.at_point(bench, place)?;
+        let known = self.with_residue(residue).or_else(|| self.multiple_of_known(bench, place, residue));
+        known.map(|known| (known, others))
+    }
+
+    /// The arguments of a function, where one of them has the value of an operation that is numbered.
+    fn arguments(&mut self, bench: &mut Workbench, e: ExprId) -> Option<[Option<Num>; 3]> {
+        let children = bench.graph.children(e);
+        let is_angle = matches!(bench.graph.node(e), Node::Function(Function::Sin | Function::Cos, _));
+        if is_angle || children.len() > 3 {
+            return None;
+        }
+        let mut is_operation = |child: &ExprId| {
+            let residue = self.at_point(bench, *child)?;
+            let known = self.with_residue(residue)?;
+            Some(!matches!(self.ops[known.index()], Op::Expr(_) | Op::Function(..)))
+        };
+        if !children.iter().any(|child| is_operation(child) == Some(true)) {
+            return None;
+        }
+        let mut arguments = [None; 3];
+        for (argument, child) in arguments.iter_mut().zip(children) {
+            *argument = Some(self.import(bench, child));
+        }
+        Some(arguments)
     }
 
     /// The value of an expression of the graph at the point.

@@ -77,6 +77,8 @@ impl Key for Residue {
 enum Op {
     /// An expression of the graph that is not looked into.
     Expr(ExprId),
+    /// A function of the graph whose arguments are numbered.
+    Function(ExprId, [Option<Num>; 3]),
     Sum(Num, Num),
     Product(Num, Num),
     Quotient(Num, Num),
@@ -93,7 +95,7 @@ impl Op {
             Op::Sum(a, b) => Op::Sum(a.neg(), b.neg()),
             Op::Product(a, b) => Op::Product(a.neg(), b),
             Op::Quotient(a, b) => Op::Quotient(a.neg(), b),
-            Op::Expr(_) | Op::SquareRoot(_) => return None,
+            Op::Expr(_) | Op::Function(..) | Op::SquareRoot(_) => return None,
         })
     }
 }
@@ -106,6 +108,8 @@ pub(crate) struct Numbering {
     constant: Vec<bool>,
     known: FastMap<Residue, u32>,
     imported: FastMap<ExprId, Num>,
+    /// The multiples of numbered expressions that sums are looked up as.
+    multiples: Vec<Rational>,
     /// Rates of imported functions that are known otherwise.
     rates: FastMap<Num, Num>,
     /// The point of the zero test, and whether it lies on the constraints on positions.
@@ -124,6 +128,7 @@ impl Numbering {
             constant: Vec::new(),
             known: FastMap::default(),
             imported: FastMap::default(),
+            multiples: Vec::new(),
             rates: FastMap::default(),
             point,
             generation,
@@ -329,11 +334,12 @@ impl Numbering {
         sum
     }
 
-    fn children(&self, index: usize) -> [Option<Num>; 2] {
+    fn children(&self, index: usize) -> [Option<Num>; 3] {
         match self.ops[index] {
-            Op::Expr(_) => [None, None],
-            Op::SquareRoot(a) => [Some(a), None],
-            Op::Sum(a, b) | Op::Product(a, b) | Op::Quotient(a, b) => [Some(a), Some(b)],
+            Op::Expr(_) => [None; 3],
+            Op::Function(_, arguments) => arguments,
+            Op::SquareRoot(a) => [Some(a), None, None],
+            Op::Sum(a, b) | Op::Product(a, b) | Op::Quotient(a, b) => [Some(a), Some(b), None],
         }
     }
 }

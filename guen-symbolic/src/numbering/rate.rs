@@ -74,7 +74,7 @@ impl Numbering {
                 let twice = self.mul(two, a);
                 self.div(dx, twice)
             }
-            Op::Expr(e) => self.rate_of(bench, rates, e),
+            Op::Expr(e) | Op::Function(e, _) => self.rate_of(bench, rates, e),
         }
     }
 

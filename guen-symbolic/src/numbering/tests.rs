@@ -1,7 +1,7 @@
 //! Tests of finding by value, of export and of rates.
 
 use super::{Num, Numbering, Rates};
-use crate::algebra::{ExprId, Function, Graph, Role, SymbolId};
+use crate::algebra::{ExprId, Function, Graph, Rational, Role, SymbolId};
 use crate::workbench::Workbench;
 use crate::zero::evaluate_f64;
 
@@ -200,4 +200,38 @@ fn absolute_values_are_nothing_else() {
     assert!(n.is_sound());
     assert!(x.abs() != size.abs());
     assert!(sign.abs() != Num::ONE && !n.is_constant(sign));
+}
+
+/// The place of an end stands in forces beside numbers, in functions, and twice as large.
+#[test]
+fn sums_are_found_within_others_in_functions_and_as_multiples() {
+    let mut bench = bench();
+    let [x, y, l] = symbols(&mut bench, Role::Coordinate);
+    let target = bench.graph.symbol("target", Role::Input);
+    let (s, c) = (bench.graph.sin(x), bench.graph.cos(y));
+    let (first, second) = (bench.graph.mul(l, s), bench.graph.mul(l, c));
+    let place = bench.graph.add(first, second);
+    let half = bench.graph.scale(place, &Rational::new(1, 2));
+    let [beside, twice] = [bench.graph.sub(place, target), bench.graph.scale(place, &Rational::integer(2))];
+    let zero = bench.graph.zero();
+    let above = bench.graph.maximum(place, zero);
+    let [s, c, l, wanted] = [s, c, l, target];
+    let mut n = numbering(&mut bench);
+    let [s, c, l, wanted] = [s, c, l, wanted].map(|e| n.import(&mut bench, e));
+    n.look_for_multiples(&mut bench, half);
+    // l (s + c), and not l s + l c.
+    let sum = n.add(s, c);
+    let short = n.mul(l, sum);
+    assert_eq!(n.import(&mut bench, twice), n.times(&mut bench, &Rational::integer(2), short));
+    assert_eq!(n.import(&mut bench, beside), n.sub(short, wanted));
+    let above = n.import(&mut bench, above);
+    assert!(n.is_sound());
+    let [short, exported] = n.export(&mut bench.graph, &[short, above]).try_into().unwrap();
+    let expected = bench.graph.maximum(short, zero);
+    assert_eq!(exported, expected);
+    // Alone nothing is found: the function keeps what it was given.
+    let mut alone = numbering(&mut bench);
+    let plain = bench.graph.maximum(place, zero);
+    let number = alone.import(&mut bench, plain);
+    assert_eq!(alone.export(&mut bench.graph, &[number]), [plain]);
 }

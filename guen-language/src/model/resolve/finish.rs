@@ -158,6 +158,10 @@ impl<'a> Resolver<'a, '_> {
         let zero = bench.graph.zero();
         let mut structure = self.eval.shapes.system;
         structure.gravity = self.gravity;
+        let magnitudes = self.forces.iter().map(|force| force.magnitude);
+        let asked: Vec<ExprId> = magnitudes.chain(self.force_function).collect();
+        let asked = bench.graph.reachable(&asked, |_| false);
+        structure.scalars.retain(|e, _| asked.contains(e));
         // Constraints come after the parameters.
         let place = |own: usize, parameters: bool| if parameters { own } else { own + degrees };
         let vectors = self.eval.vectors.iter();

@@ -10,6 +10,8 @@ mod print;
 
 pub use place::{FormShape, Motion, Place, Velocity, VelocityComponent};
 
+use std::collections::BTreeMap;
+
 use crate::algebra::{ExprId, Graph, Substitution};
 
 /// A frame of a system graph.
@@ -81,6 +83,8 @@ pub struct SystemGraph {
     pub gravity: Option<[ExprId; 3]>,
     /// Lengths of vectors, where these are written in frames.
     pub lengths: Vec<(ExprId, Place)>,
+    /// Functions of places with their rates: lengths, products and components of vectors.
+    pub scalars: BTreeMap<ExprId, FormShape>,
     /// Each form as it was declared, where it speaks of places and frames.
     pub forms: Vec<Option<FormShape>>,
     /// The forms that are the components of one velocity along the axes of the world; those that vanish identically are no
@@ -166,7 +170,8 @@ impl SystemGraph {
             body.frame.iter().for_each(|frame| note(*frame));
             body.center.iter().flat_map(|place| &place.terms).for_each(|(frame, _)| note(*frame));
         }
-        for shape in self.forms.iter().chain(&self.loads).flatten() {
+        let scalars = self.scalars.values();
+        for shape in self.forms.iter().chain(&self.loads).flatten().chain(scalars) {
             shape.frames(&mut note);
         }
         self.lengths.iter().flat_map(|(_, place)| &place.terms).for_each(|(frame, _)| note(*frame));
@@ -185,7 +190,9 @@ impl SystemGraph {
             body.frame.iter_mut().for_each(image);
             body.center.iter_mut().flat_map(|place| &mut place.terms).for_each(|(frame, _)| image(frame));
         }
-        self.forms.iter_mut().chain(&mut self.loads).flatten().for_each(|shape| shape.renamed(&image));
+        let scalars = self.scalars.values_mut();
+        let shapes = self.forms.iter_mut().chain(&mut self.loads).flatten().chain(scalars);
+        shapes.for_each(|shape| shape.renamed(&image));
         self.lengths.iter_mut().flat_map(|(_, place)| &mut place.terms).for_each(|(frame, _)| image(frame));
         self
     }
@@ -216,6 +223,9 @@ impl SystemGraph {
             *length = image(*length);
             place.map(&mut image);
         }
+        other.scalars =
+            core::mem::take(&mut other.scalars).into_iter().map(|(e, shape)| (image(e), shape)).collect();
+        other.scalars.values_mut().for_each(|shape| shape.map(&mut image));
         for shape in other.forms.iter_mut().chain(&mut other.loads).flatten() {
             shape.map(&mut image);
         }

@@ -19,7 +19,7 @@ mod velocities;
 pub use self::print::elimination_text;
 
 use self::inwards::assembly::{self, Assembly, Root};
-use self::inwards::{beside, inertial_forces};
+use self::inwards::{beside, inertial_forces, potentials};
 use self::outwards::kinematics::Kinematics;
 use self::places::tree::Tree;
 use self::planning::core::Core;
@@ -63,6 +63,7 @@ pub(super) fn rates(
     if structure.bodies.is_empty() || !is_understood(bench, system) {
         return None;
     }
+    let system = &potentials::as_forces(bench, system, frame);
     // A rotation that is one on its constraint alone.
     let on_manifold = has_general_turns(system) && !system.holonomic.is_empty();
     // What rolls and is posed by a quaternion has no axes here in which its contact rests: entries that are small where others
@@ -137,7 +138,7 @@ pub(in crate::motion) fn freed(
     }
     let (n, l) = (system.forms.len(), system.forms.degrees);
     let on_manifold = has_general_turns(system) && !system.holonomic.is_empty();
-    let mut free = system.clone();
+    let mut free = potentials::as_forces(bench, system, frame);
     free.forms.degrees = n;
     free.holonomic.clear();
     let mut attempt = |free: &Mechanics, point| {

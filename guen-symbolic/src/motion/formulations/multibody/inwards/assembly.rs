@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::beside::Row;
 use super::form::Form;
-use crate::motion::Mechanics;
+use crate::algebra::Role;
 use crate::motion::formulations::multibody::outwards::kinematics::Kinematics;
 use crate::motion::formulations::multibody::places::tree::{Content, Tree, Turn};
 use crate::motion::formulations::multibody::planning::core::Core;
@@ -15,6 +15,7 @@ use crate::motion::formulations::multibody::velocities::relations::{
 };
 use crate::motion::formulations::multibody::velocities::variables::{Class, Kind, Var, Variables};
 use crate::motion::thresholds::WRITTEN_OUT_PARAMETERS;
+use crate::motion::{Force, Mechanics};
 use crate::numbering::{Num, Numbering};
 
 /// Returns the velocities that the energies of the bodies depend on.
@@ -253,6 +254,7 @@ impl<'a> Assembly<'a> {
         let Kinematics { tree, variables, plan, system, .. } = self.kinematics;
         let shapes = &system.structure.loads;
         let velocity = |k: usize| shapes.get(k)?.as_ref()?.components.first().map(|part| &part.velocity);
+        self.number_velocities(loads);
         let mut own = Linear::new();
         for (k, (force, load)) in system.forces.iter().zip(loads).enumerate() {
             let magnitude = self.kinematics.numbers.import(self.kinematics.bench, force.magnitude);
@@ -265,6 +267,24 @@ impl<'a> Assembly<'a> {
             let relative = in_steps(numbers, tree, variables, plan, whole.clone());
             for (var, e) in if relative.len() <= whole.len() { relative } else { whole } {
                 self.push(var, e);
+            }
+        }
+    }
+
+    /// Numbers the velocities along which forces act that depend on velocities: a damper has its own in its force.
+    fn number_velocities(&mut self, loads: &[Functional]) {
+        let Kinematics { system, bench, .. } = &self.kinematics;
+        let moves = |force: &Force| bench.graph.roles(force.magnitude).has(Role::QuasiVelocity);
+        if !system.forces.iter().any(moves) {
+            return;
+        }
+        for load in loads {
+            let mut sum = load.offset;
+            for (var, c) in &load.terms {
+                let value = self.kinematics.value(*var);
+                let numbers = &mut *self.kinematics.numbers;
+                let part = numbers.mul(*c, value);
+                sum = numbers.add(sum, part);
             }
         }
     }

@@ -3,10 +3,10 @@
 use super::forms::{Direction, Functional, Part};
 use super::strain::Strain;
 use super::variables::Variables;
-use crate::algebra::ExprId;
+use crate::algebra::{ExprId, Rational};
 use crate::motion::Mechanics;
 use crate::motion::formulations::multibody::places::tree::{Tree, Turn, Vec3, plus};
-use crate::motion::graph::{FormShape, Motion, Place, Velocity};
+use crate::motion::graph::{FormShape, Motion, Place, Velocity, VelocityComponent};
 use crate::motion::quasi_velocities::velocity_forms::VelocityPartials;
 use crate::numbering::{Num, Numbering};
 use crate::workbench::Workbench;
@@ -127,6 +127,48 @@ impl Maker<'_> {
         }
     }
 
+    /// Numbers functions of places that forces depend on: as sums over the frames in which the places are written, which are short.
+    fn scalars(&mut self) {
+        let magnitudes: Vec<ExprId> = self.system.forces.iter().map(|force| force.magnitude).collect();
+        let below = self.bench.graph.reachable(&magnitudes, |_| false);
+        for force in &self.system.forces {
+            self.numbers.look_for_multiples(self.bench, force.along);
+        }
+        let structure = &self.system.structure;
+        let is_asked = |(scalar, _): &(&ExprId, &FormShape)| below.contains(*scalar);
+        let scalars = structure.scalars.iter().filter(is_asked).map(|(_, shape)| shape);
+        for shape in scalars.chain(structure.loads.iter().flatten()) {
+            let mut sum = Num::ZERO;
+            for VelocityComponent { direction, velocity } in &shape.components {
+                let [(factor, Motion::Rate(place))] = &velocity.parts[..] else { continue };
+                let factor = self.numbers.import(self.bench, *factor);
+                let own = self.product(direction, place);
+                let own = self.numbers.mul(factor, own);
+                sum = self.numbers.add(sum, own);
+            }
+            // Of a product each factor has a rate.
+            self.numbers.times(self.bench, &Rational::new(1, 2), sum);
+        }
+    }
+
+    /// The inner product of a direction and a place: in the axes of each frame of the place, or where both have several, in those of the youngest.
+    fn product(&mut self, direction: &Place, place: &Place) -> Num {
+        let direction = self.tree.terms(self.bench, self.numbers, direction);
+        let place = self.tree.terms(self.bench, self.numbers, place);
+        if let [(from, vector)] = &direction[..] {
+            let mut sum = Num::ZERO;
+            for (axes, own) in &place {
+                let seen = self.tree.seen_in(self.numbers, *axes, *from, vector);
+                let part = self.numbers.dot(&seen, own);
+                sum = self.numbers.add(sum, part);
+            }
+            return sum;
+        }
+        let axes = direction.iter().chain(&place).map(|(axes, _)| *axes).max().unwrap_or(0);
+        let (direction, place) = (self.sum_in(axes, &direction), self.sum_in(axes, &place));
+        self.numbers.dot(&direction, &place)
+    }
+
     /// The rate of a place: the velocity of a point and a lever, or levers in axes that do not hang on each other.
     fn rate(&mut self, place: &Place, axes: usize) -> Option<Vec<Part>> {
         let terms = self.tree.all.terms(self.bench, place);
@@ -199,6 +241,7 @@ pub(in crate::motion) fn shapes(
     let loads = system.forces.iter().enumerate();
     let loads = loads.map(|(k, force)| taken(structure.loads.get(k), force.along)).collect();
     maker.lengths();
+    maker.scalars();
     Some(Shapes { forms, loads })
 }
 
