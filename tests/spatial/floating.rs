@@ -206,3 +206,50 @@ fn an_arm_on_a_quaternion_moves_as_on_angles() {
         assert!(cost.total() < 1600, "{cost:?}");
     }
 }
+
+/// An arm on a ship that rocks by given angles: a double and a triple frequency as numbers, or as constants.
+macro_rules! arm_on_a_ship {
+    ($name:ident, $double:expr, $triple:expr) => {
+        guen::mechanical_system! {
+            pub system $name {
+                constants { l > 0 = 0.4, m > 0 = 1.1, J > 0 = 0.05, two = 2, three = 3, g = 9.81 }
+                coordinates { q0, q1, q2 }
+                let ship = rot_x(sin($double)/5)*rot_y(cos($triple)/7);
+                let R0 = ship*rot_z(q0);
+                let R1 = R0*rot_y(q1);
+                let R2 = R1*rot_x(q2);
+                let p1 = R0*vec(l, 0, l/3);
+                let p2 = p1 + R1*vec(l, 0, l/3);
+                let p3 = p2 + R2*vec(l, 0, l/3);
+                bodies {
+                    first { mass: m, center: p1/2, inertia: diag(J, 2*J, 3*J), orientation: R0 }
+                    second { mass: m, center: (p1 + p2)/2, inertia: diag(J, 2*J, 3*J), orientation: R1 }
+                    third { mass: m, center: (p2 + p3)/2, inertia: diag(J, 2*J, 3*J), orientation: R2 }
+                }
+                gravity = vec(0, 0, -g);
+                outputs { _used = two + three; }
+            }
+        }
+    };
+}
+
+arm_on_a_ship!(InNumbers, 2 * t, 3 * t);
+arm_on_a_ship!(InConstants, two * t, three * t);
+
+#[test]
+fn a_base_turns_by_multiples_of_time() {
+    let numbers = InNumbers::default().prepare().unwrap();
+    let constants = InConstants::default().prepare().unwrap();
+    for k in 0..4 {
+        let state: [f64; 6] = std::array::from_fn(|i| f64::sin((1 + i + 7 * k) as f64));
+        let t = 0.3 * f64::from(k as u32);
+        let one: [f64; 6] = numbers.rhs(t, &state.into()).into();
+        let other: [f64; 6] = constants.rhs(t, &state.into()).into();
+        for (one, other) in one.into_iter().zip(other) {
+            assert!((one - other).abs() < 1e-11 * (1.0 + other.abs()), "{one} or {other}");
+        }
+    }
+    // Multiplied out they take two thousand.
+    let costs = [InNumbers::<f64>::COST, InConstants::<f64>::COST].map(|cost| cost.total());
+    assert!(costs[0] < 320 && costs[0].abs_diff(costs[1]) < 20, "{costs:?}");
+}

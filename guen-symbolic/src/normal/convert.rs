@@ -42,6 +42,7 @@ struct Collector<'g> {
     images: BTreeMap<ExprId, Image>,
     generators: Vec<ExprId>,
     angles: Vec<(ExprId, ExprId, ExprId, Option<ExprId>)>,
+    are_whole: bool,
 }
 
 impl Collector<'_> {
@@ -83,7 +84,7 @@ impl Collector<'_> {
             *slot = if common <= MAX_FRACTION { common } else { *slot };
         }
         for ((id, _, x), parts) in nodes.iter().zip(parts) {
-            let mut multiples = Some(Vec::new()).filter(|_| fits(&parts));
+            let mut multiples = Some(Vec::new()).filter(|_| !self.are_whole && fits(&parts));
             for (term, c) in &parts {
                 let l = lcm.get(term).copied().unwrap_or(1);
                 let k = (c * &Rational::integer(l)).to_i64().filter(|k| k.abs() <= most);
@@ -134,8 +135,22 @@ impl Collector<'_> {
     }
 }
 
+/// What becomes of sines and cosines of multiples and sums of angles, and of exponentials.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Angles {
+    /// Polynomials of those of base angles.
+    Apart,
+    /// Generators of their own.
+    Whole,
+}
+
 /// The ring of an expression and the expression in it.
-pub(super) fn convert(graph: &mut Graph, e: ExprId, limits: &Limits) -> Result<(Ring, Fraction)> {
+pub(super) fn convert(
+    graph: &mut Graph,
+    e: ExprId,
+    limits: &Limits,
+    angles: Angles,
+) -> Result<(Ring, Fraction)> {
     // Radicands are converted, arguments of all other functions are not entered.
     let mut nodes = Vec::new();
     let mut stack = vec![e];
@@ -156,8 +171,9 @@ pub(super) fn convert(graph: &mut Graph, e: ExprId, limits: &Limits) -> Result<(
         }
     }
     sort_ids(&mut nodes);
+    let are_whole = angles == Angles::Whole;
     let mut collector =
-        Collector { graph, images: BTreeMap::new(), generators: Vec::new(), angles: Vec::new() };
+        Collector { graph, images: BTreeMap::new(), generators: Vec::new(), angles: Vec::new(), are_whole };
     let (mut trigonometric, mut exponentials) = (Vec::new(), Vec::new());
     for id in &nodes {
         match *collector.graph.node(*id) {

@@ -14,6 +14,8 @@ mod tests;
 use std::collections::BTreeMap;
 
 use crate::algebra::{ExprId, Function, Graph, Node, Rational};
+use crate::program::weighted_cost;
+use convert::Angles;
 use poly::{Exceeded, Mono, Poly, Result};
 use ring::{Fraction, Ring};
 
@@ -83,7 +85,7 @@ fn coefficients(
     variables: &[ExprId],
     limits: &Limits,
 ) -> Result<Vec<(Vec<u32>, ExprId)>> {
-    let (ring, f) = convert::convert(g, e, limits)?;
+    let (ring, f) = convert::convert(g, e, limits, Angles::Apart)?;
     let places: Vec<_> = variables.iter().map(|v| ring.generators.iter().position(|id| id == v)).collect();
     let mask = Mono::mask(places.iter().flatten().copied());
     if !f.den.mono.part(&mask).is_one() || f.den.polys.keys().any(|poly| poly.meets(&mask)) {
@@ -118,8 +120,14 @@ fn coefficients(
 const DOUBLINGS: u32 = 4;
 
 fn normalized(g: &mut Graph, e: ExprId, limits: &Limits, flat: bool) -> Result<ExprId> {
-    let (ring, f) = convert::convert(g, e, limits)?;
+    let (ring, f) = convert::convert(g, e, limits, Angles::Apart)?;
     if flat { rebuild::expanded(g, &ring, &f) } else { finish(g, &ring, &f, limits, DOUBLINGS) }
+}
+
+/// The normal form of an argument in which sines and cosines are what they are.
+fn with_whole_angles(g: &mut Graph, e: ExprId, limits: &Limits) -> Result<ExprId> {
+    let (ring, f) = convert::convert(g, e, limits, Angles::Whole)?;
+    rebuild::expanded(g, &ring, &f)
 }
 
 /// The expression of a fraction; half angles that occur in pairs become whole ones first, at most so many times. Half angles stay where the
@@ -179,11 +187,12 @@ fn finish(g: &mut Graph, ring: &Ring, f: &Fraction, limits: &Limits, doublings: 
         factors.push((sum(g, poly), -(*k as i32)));
     }
     let e = g.product(&factors);
-    let (ring, f) = convert::convert(g, e, limits)?;
+    let (ring, f) = convert::convert(g, e, limits, Angles::Apart)?;
     finish(g, &ring, &f, limits, doublings - 1)
 }
 
-/// Arguments of functions in normal form, innermost first.
+/// Arguments of functions in normal form, innermost first. Sines and cosines in an argument stay whole where that is as cheap: `sin(2 t)`
+/// is no product. Of arguments with one normal form all are written as the first.
 fn prepare(g: &mut Graph, e: ExprId, limits: &Limits) -> ExprId {
     // What is kept whole is a generator: nothing inside it is looked at.
     let kept = |g: &Graph, id: ExprId| matches!(g.node(id), Node::Kept(_));
@@ -198,10 +207,18 @@ fn prepare(g: &mut Graph, e: ExprId, limits: &Limits) -> ExprId {
     }
     let inside: Vec<ExprId> = g.reachable(&[e], |_| false).into_iter().filter(|id| kept(g, *id)).collect();
     let mut images: BTreeMap<ExprId, ExprId> = inside.iter().map(|id| (*id, *id)).collect();
+    let mut written: BTreeMap<(ExprId, bool), ExprId> = BTreeMap::new();
     for id in pending {
-        let argument = |g: &mut Graph, x: ExprId, flat: bool| {
+        let mut argument = |g: &mut Graph, x: ExprId, flat: bool| {
             let x = images[&x];
-            if g.is_sum_of_monomials(x) { x } else { normalized(g, x, limits, flat).unwrap_or(x) }
+            if g.is_sum_of_monomials(x) {
+                return x;
+            }
+            let Ok(normal) = normalized(g, x, limits, flat) else { return x };
+            *written.entry((normal, flat)).or_insert_with(|| match with_whole_angles(g, x, limits) {
+                Ok(whole) if flat && weighted_cost(g, &[whole]) <= weighted_cost(g, &[normal]) => whole,
+                _ => normal,
+            })
         };
         let image = match g.node(id).clone() {
             Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined => id,

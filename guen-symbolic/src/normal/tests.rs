@@ -216,6 +216,17 @@ fn trigonometric_identities() {
 }
 
 #[test]
+fn arguments_stay_where_their_normal_forms_are_dearer() {
+    check("sin(sin(2*x))", "sin(sin(2*x))");
+    check("A*cos(sin(2*x))^2*y", "A*cos(sin(2*x))^2*y");
+    check("sin((x + y)^2 - x^2 - y^2 - x*y)", "sin(x*y)");
+    // Equal arguments are one, whichever comes first.
+    check("sin(sin(2*x)) - sin(2*sin(x)*cos(x))", "0");
+    check("sin(2*sin(x)*cos(x)) - sin(sin(2*x))", "0");
+    check("exp(cos(2*x)) - exp(1 - 2*sin(x)^2)", "0");
+}
+
+#[test]
 fn squares_of_tangents_take_nothing_from_each_other() {
     // Not `A/cos^2 - (A - C) tan^2`: next to a right angle both have no digits of `A`.
     check("A/cos(x)^2 - (A - C)*sin(x)^2/cos(x)^2", "A + C*tan(x)^2");
