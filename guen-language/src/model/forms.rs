@@ -188,6 +188,8 @@ impl Evaluator<'_> {
         match value {
             Err(_) => self.scope.declare(self.faults, name, category, None),
             Ok(Value::Vector(components)) => {
+                // The fault of the whole is that of its components.
+                let is_twice = self.scope.category(&name.text).is_some();
                 let mut symbols = [self.bench.graph.zero(); 3];
                 let before = forms.len();
                 let mut places = [None; 3];
@@ -204,8 +206,12 @@ impl Evaluator<'_> {
                         push(self, forms, &text, (definition, shape), i)
                     };
                     symbols[i] = value;
-                    let value = Some(Value::Scalar(value));
-                    self.scope.declare_component(self.faults, &component, category, value);
+                    if is_twice {
+                        self.scope.excuse(text, name.span());
+                    } else {
+                        let value = Some(Value::Scalar(value));
+                        self.scope.declare_component(self.faults, &component, category, value);
+                    }
                 }
                 if self.shapes.is_velocity(&components) {
                     let parameters = kind == FormKind::Parameter;

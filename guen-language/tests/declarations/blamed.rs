@@ -108,6 +108,19 @@ fn an_instance_that_is_missing_is_told_once() {
 }
 
 #[test]
+fn a_vector_that_is_declared_twice_has_one_fault() {
+    let messages = messages(
+        "system S {
+            coordinates { x, y, z, u } kinetic_energy = dot(x)^2 + dot(z)^2;
+            parameters { v = dot(vec(x, y)); v = vec(dot(z), 0); }
+            holonomic { c: vec(z, u) = vec(x, y); c: vec(0, z, u) = 0; }
+            forces { c_x along v_x; }
+        }",
+    );
+    assert_eq!(messages, ["`v` is declared twice", "`c` is declared twice"]);
+}
+
+#[test]
 fn a_second_scene_of_one_name_is_told_whatever_the_first_has() {
     let messages = messages(
         "system S {

@@ -4,7 +4,7 @@ use guen_language::derive::{DerivedSystem, function};
 use guen_language::report::ReportLines;
 use guen_symbolic::SymbolId;
 
-use crate::common::{derived, evaluated};
+use crate::common::{derived, evaluated, fault_messages};
 
 /// A pendulum that a motor swings; a filter sees its acceleration, and an integrator the error of the angle.
 pub const MOTOR: &str = "pub system Motor {
@@ -217,4 +217,15 @@ fn an_instance_that_is_tracked_keeps_its_states() {
         scene Slow { track filter; }
     }";
     derived(text, |derived| assert_eq!(derived.scenes[0].selection.variables.len(), 2));
+}
+
+#[test]
+fn a_rate_with_a_fault_is_declared() {
+    let faults = fault_messages(
+        "pub system S { coordinates { x } kinetic_energy = dot(x)^2; states { dot(a) = dot(b) + nothing; dot(b) = 1; } forces { a + b along x_rate; } outputs { o = dot(a); } }",
+    );
+    assert_eq!(
+        faults,
+        ["the rate of `b` is used before it is declared", "unknown name `nothing` in the rate of state `a`"]
+    );
 }

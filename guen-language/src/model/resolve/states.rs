@@ -41,8 +41,10 @@ impl<'a> Resolver<'a, '_> {
         let place = self.states.iter().position(|known| std::ptr::eq(known.name, &state.name));
         let Some(place) = place else { return self.declare_state(state) };
         self.eval.entry = Some(state.name.text.clone());
-        if let Ok(rate) = self.eval.scalar_at(ExpressionPlace::StateRate, &state.rate) {
-            self.eval.states[place].1 = Some(rate);
-        }
+        let rate = self.eval.scalar_at(ExpressionPlace::StateRate, &state.rate);
+        // A rate with a fault is declared, whatever it is.
+        let graph = &mut self.eval.bench.graph;
+        let unknown = |_| graph.symbol(&format!("dot({})", state.name.text), Role::State);
+        self.eval.states[place].1 = Some(rate.unwrap_or_else(unknown));
     }
 }
