@@ -227,8 +227,6 @@ pub mod __private {
         record, reduce, reported, restored_by_modes, simulated, simulated_through_modes, source, sourced,
         state_of_system, steady_motions, structured, switches, uses, with_scalar,
     };
-    pub use guen_runtime::{
-        consistent, control, furthest_surplus, hybrid, onto, serde_record, serde_structured,
-    };
+    pub use guen_runtime::{consistent, control, hybrid, onto, serde_record, serde_structured};
     pub use guen_runtime::{derivatives_0, derivatives_1, derivatives_2, derivatives_3, derivatives_4};
 }

@@ -91,9 +91,9 @@ pub use steppers::{Cause, IntegrationError, Setting};
 pub use system::check_costs::CheckCosts;
 pub use system::constants_error::{BodyFault, ConstantsError};
 pub use system::constraints::auxiliary_states::{AuxiliaryStates, Renormalized, renormalized};
-pub use system::constraints::positions::{Positions, Projected, consistent, project, projected};
 #[doc(hidden)]
-pub use system::constraints::positions::{furthest_surplus, onto};
+pub use system::constraints::positions::onto;
+pub use system::constraints::positions::{Positions, Projected, consistent, project, projected};
 pub use system::constraints::positions_error::PositionsError;
 pub use system::derivatives::differentiable::{Differentiable, Equations, Generic, generic};
 pub use system::derivatives::linearization::{

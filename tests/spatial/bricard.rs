@@ -81,22 +81,18 @@ fn the_mechanism_moves_and_stays_closed() {
 fn what_is_consistent_fulfils_all_equations() {
     let mechanism = mechanism();
     let mut numbers = Numbers::new();
-    let (mut found, mut refused) = (0, 0);
+    let mut found = 0;
     for _ in 0..200 {
         let [q1, q2, q3, q4, q5] = [0; 5].map(|_| 3.0 * numbers.next());
         let guess = bricard::Coordinates { q1, q2, q3, q4, q5 };
-        match mechanism.consistent(0.0, &guess, &[]) {
-            Ok(bricard::Coordinates { q1, q2, q3, q4, q5 }) => {
-                found += 1;
-                let state = bricard::State { q1, q2, q3, q4, q5, v: 0.0 };
-                let residual = mechanism.residual(0.0, &state.into());
-                assert!(residual < 1e-7, "{residual:e}");
-            }
-            Err(PositionsError::NotFound { residual }) if residual > 1e-3 => refused += 1,
-            Err(_) => {}
+        if let Ok(bricard::Coordinates { q1, q2, q3, q4, q5 }) = mechanism.consistent(0.0, &guess, &[]) {
+            found += 1;
+            let state = bricard::State { q1, q2, q3, q4, q5, v: 0.0 };
+            let residual = mechanism.residual(0.0, &state.into());
+            assert!(residual < 1e-7, "{residual:e}");
         }
     }
-    assert!(found > 20 && refused > 0, "{found} {refused}");
+    assert!(found > 60, "{found}");
 }
 
 guen::mechanical_system! {
@@ -110,7 +106,7 @@ guen::mechanical_system! {
 }
 
 #[test]
-fn a_branch_where_a_redundant_equation_fails_is_refused() {
+fn a_branch_where_a_redundant_equation_fails_is_left_or_refused() {
     assert!(
         branches::REPORT
             .lines("Forms")
@@ -119,7 +115,9 @@ fn a_branch_where_a_redundant_equation_fails_is_refused() {
     );
     let system = Branches::new().prepare().unwrap();
     let near = |x| system.consistent(0.0, &branches::Coordinates { x, y: 0.0 }, &[]);
-    assert!(near(0.1).unwrap().x.abs() < 1e-12);
-    let Err(PositionsError::NotFound { residual }) = near(0.9) else { panic!("{:?}", near(0.9)) };
+    assert!(near(0.1).unwrap().x.abs() < 1e-12 && near(0.9).unwrap().x.abs() < 1e-12);
+    let Err(PositionsError::NotFound { residual }) = guen::project(&system, 0.0, &mut [0.9, 0.0, 0.0]) else {
+        panic!("another branch")
+    };
     assert!((0.9..1.0).contains(&residual), "{residual}");
 }

@@ -59,3 +59,47 @@ fn rods_on_hinges_keep_energy_and_equations() {
     // It has moved out of the plane.
     assert!(rods.residuals(10.0, &hinged_rods::State { y2: end.y2 + 0.1, ..end }).across2.abs() > 1e-3);
 }
+
+guen::mechanical_system! {
+    /// Two bodies on a hinge, whose axis is written as one vector in the world: one of its three equations follows from the others.
+    pub system Hinge {
+        constants { m > 0 = 1.3 }
+        inputs { torque }
+        coordinates { w, i, j, k, w2, i2, j2, k2 }
+        let Q = quaternion(w, i, j, k);
+        let P = quaternion(w2, i2, j2, k2);
+        holonomic { u1: w^2 + i^2 + j^2 + k^2 = 1; u2: w2^2 + i2^2 + j2^2 + k2^2 = 1; hinge: Q.z = P.z; }
+        bodies {
+            a { mass: m, center: Q*vec(1, 0, 0), inertia: diag(1, 2, 2), orientation: Q }
+            b { mass: m, center: P*vec(-1, 0, 0), inertia: diag(1, 2, 2), orientation: P }
+        }
+        forces { torque*Q.z along a.angular_velocity - b.angular_velocity; }
+    }
+}
+
+/// Two of the three equations hold on two branches, which meet where the axis lies in a plane of the world.
+#[test]
+fn a_hinge_closes_whichever_way_its_axis_points() {
+    let system = Hinge::default().prepare().unwrap();
+    let driven = system.driven(hinge::Inputs { torque: 0.0 });
+    for (number, spread) in (0..150).zip([0.01, 0.1, 0.5].into_iter().cycle()) {
+        let draw = |place: u32| f64::from(17 * number + 5 * place + 1).sin();
+        let q: [f64; 4] = std::array::from_fn(|i| draw(i as u32));
+        let q = q.map(|e| e / q.iter().map(|e| e * e).sum::<f64>().sqrt());
+        let (sine, cosine) = (1.5 * draw(4)).sin_cos();
+        let [w, x, y, z] = q;
+        let p = [w * cosine - z * sine, x * cosine + y * sine, y * cosine - x * sine, z * cosine + w * sine];
+        let both = [q, p].concat();
+        let guess: [f64; 8] = std::array::from_fn(|i| both[i] + spread * draw(5 + i as u32));
+        let found = system.consistent(0.0, &guess.into(), &[]).unwrap();
+        let end: [f64; 8] = found.into();
+        assert!(
+            end.iter().zip(&guess).all(|(end, guess)| (end - guess).abs() < 3.0 * spread),
+            "{guess:?} {end:?}"
+        );
+        assert!(guen::Positions::surplus(&driven, 0.0, &end) < 1e-7);
+        // What is given stays.
+        let held = system.consistent(0.0, &found, &["w", "i"]).unwrap();
+        assert_eq!((held.w, held.i), (found.w, found.i));
+    }
+}

@@ -118,3 +118,40 @@ fn drift_does_not_accumulate() {
         .unwrap();
     assert!(most < 1e-14, "{most:e}");
 }
+
+guen::mechanical_system! {
+    /// A crank with its slider, and a wheel that has turned many times.
+    pub system DeadPoint {
+        constants { r = 1, l = 2 }
+        coordinates { turned, crank, rod, slider }
+        holonomic { across: r*sin(crank) = l*sin(rod); ahead: r*cos(crank) + l*cos(rod) = slider; }
+        kinetic_energy = dot(turned)^2 + dot(crank)^2 + dot(slider)^2;
+    }
+}
+
+/// At a dead point a step of Newton's method has no end; and a large angle says nothing of the accuracy of a small one.
+#[test]
+fn guesses_near_dead_points_and_beside_large_angles_are_followed() {
+    let system = DeadPoint::default().prepare().unwrap();
+    let dead = core::f64::consts::FRAC_PI_2;
+    let all = ["crank", "turned"];
+    for (turned, rod, given) in [
+        (0.0, dead, 1),
+        (0.0, dead - 1e-11, 1),
+        (0.0, dead - 1e-7, 2),
+        (1e9, 0.7, 1),
+        (-1e11, -0.3, 1),
+        (1e9, 0.7, 2),
+        (1e9, dead, 2),
+    ] {
+        let guess = dead_point::Coordinates { turned, crank: 0.3, rod, slider: 2.0 };
+        let found = system.consistent(0.0, &guess, &all[..given]).unwrap();
+        let near = f64::asin(f64::sin(0.3) / 2.0);
+        let slider = f64::cos(0.3) + 2.0 * near.cos();
+        assert!(
+            (found.rod - near).abs() < 1e-14 && (found.slider - slider).abs() < 1e-14,
+            "{guess:?} {found:?}"
+        );
+        assert_eq!((found.turned, found.crank), (turned, 0.3));
+    }
+}

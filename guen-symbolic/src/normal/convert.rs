@@ -135,7 +135,7 @@ impl Collector<'_> {
     }
 }
 
-/// What becomes of sines and cosines of multiples and sums of angles, and of exponentials.
+/// Images of sines and cosines of multiples and sums of angles, and of exponentials.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Angles {
     /// Polynomials of those of base angles.

@@ -17,19 +17,18 @@ pub(in crate::emit) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> Toke
     // An equation that follows from others is checked, but Newton's method does not solve it.
     let surplus = (all > count).then(|| {
         quote! {
-            #[inline]
-            fn surplus(&self, t: R, coordinates: &[R; #n]) -> f64 {
+            fn further(&self, t: R, coordinates: &[R; #n], take: &mut dyn ::core::ops::FnMut(R, &[R; #n])) {
                 let values = program::gradients(&self.constants, &self.hoisted, t, coordinates);
-                let row = |v: usize| -> [R; #n] { ::core::array::from_fn(|i| values[#all + v * #n + i]) };
-                __guen::furthest_surplus((#count..#all).map(|v| (values[v], row(v))))
+                for v in #count..#all {
+                    take(values[v], &::core::array::from_fn(|i| values[#all + v * #n + i]));
+                }
             }
         }
     });
     let passed = (all > count).then(|| {
         quote! {
-            #[inline]
-            fn surplus(&self, t: R, coordinates: &[R; #n]) -> f64 {
-                __guen::Positions::surplus(&self.system, t, coordinates)
+            fn further(&self, t: R, coordinates: &[R; #n], take: &mut dyn ::core::ops::FnMut(R, &[R; #n])) {
+                __guen::Positions::further(&self.system, t, coordinates, take);
             }
         }
     });

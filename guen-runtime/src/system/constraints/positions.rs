@@ -4,6 +4,7 @@
 //! drift away from zero. This module puts the coordinates back and leaves the parameters as they are: velocities
 //! `x' = xi_0 + sum_s eta_s xi_s` keep the rate of `f` zero wherever the coordinates are.
 
+use super::nearer;
 use super::positions_error::PositionsError;
 use crate::numbers::real::{Ordered, Real};
 use crate::system::derivatives::differentiable::Differentiable;
@@ -19,11 +20,22 @@ pub trait Positions<R: Real, const N: usize, const H: usize> {
     /// The left sides, and beside them the derivatives `F_vi = d f_v / d x_i`, exact, a row for each constraint.
     fn linearized(&self, t: R, coordinates: &[R; N]) -> ([R; H], [[R; N]; H]);
 
-    /// Returns the distance of the coordinates from further equations that follow from these wherever all hold, as a
-    /// length: the largest left side over the length of its gradient. They are not solved: their gradients depend on
-    /// those of the others. Zero where there are none.
-    fn surplus(&self, _t: R, _coordinates: &[R; N]) -> f64 {
-        0.0
+    /// Hands on further equations that follow from these wherever all hold, each as its left side and the derivatives of it. They are
+    /// not solved with the others, on whose gradients theirs depend, and tell apart the branches of these. There may be none.
+    fn further(&self, _t: R, _coordinates: &[R; N], _take: &mut dyn FnMut(R, &[R; N])) {}
+
+    /// Returns the distance of the coordinates from the further equations, as a length: the largest left side over the length of its
+    /// gradient. Zero where there are none; NaN and infinity count as infinite.
+    fn surplus(&self, t: R, coordinates: &[R; N]) -> f64 {
+        let mut most = 0.0_f64;
+        self.further(t, coordinates, &mut |gap, gradient| {
+            let length = match gap.to_f64().abs() {
+                0.0 => 0.0,
+                gap => gap / size(gradient),
+            };
+            most = if length.is_nan() { f64::INFINITY } else { most.max(length) };
+        });
+        most
     }
 }
 
@@ -38,20 +50,14 @@ impl<R: Real, S: Positions<R, N, H> + ?Sized, const N: usize, const H: usize> Po
         (**self).linearized(t, coordinates)
     }
 
+    fn further(&self, t: R, coordinates: &[R; N], take: &mut dyn FnMut(R, &[R; N])) {
+        (**self).further(t, coordinates, take);
+    }
+
     #[inline]
     fn surplus(&self, t: R, coordinates: &[R; N]) -> f64 {
         (**self).surplus(t, coordinates)
     }
-}
-
-/// The largest of left sides over the lengths of their gradients; NaN and infinity count as infinite.
-#[doc(hidden)]
-pub fn furthest_surplus<R: Real, const N: usize>(equations: impl Iterator<Item = (R, [R; N])>) -> f64 {
-    let lengths = equations.map(|(gap, gradient)| match gap.to_f64().abs() {
-        0.0 => 0.0,
-        gap => gap / size(&gradient),
-    });
-    lengths.fold(0.0, |most, length| if length.is_nan() { f64::INFINITY } else { most.max(length) })
 }
 
 /// Coordinates that fulfil the constraints on positions, near a guess and with some of them as they are in it.
@@ -61,8 +67,10 @@ pub fn furthest_surplus<R: Real, const N: usize>(equations: impl Iterator<Item =
 /// ```
 ///
 /// - Newton's method, each step the shortest that fulfils the linearised constraints; steps are halved as long as
-///   the next one would not be shorter. Where fewer coordinates are given than there are degrees of freedom, the
+///   the next one would not be shorter, and none is longer than twice the largest coordinate that is free. Where fewer coordinates are given than there are degrees of freedom, the
 ///   result is a point of the constraint set near the guess.
+/// - Where that comes to no end, or to a branch where [further equations](Positions::further) do not hold, it begins anew from
+///   where all equations together are near zero, by damped least squares from the guess.
 /// - `names` are those of the coordinates, `given` some of them.
 /// - The lengths of steps add the squares of coordinates in their units.
 ///
@@ -92,8 +100,12 @@ where
         return Err(PositionsError::TooManyGiven { left, constraints: H });
     }
     let mut x = *guess;
-    search(system, t, &mut x, &free)?;
-    Ok(x)
+    let Err(fault) = search(system, t, &mut x, &free, Proof::OfGuess) else { return Ok(x) };
+    // Of further equations these may have led to another branch, or have no branches apart here.
+    let Some(near) = nearer::by_all(system, t, guess, &free) else { return Err(fault) };
+    let mut x = near;
+    let is_found = search(system, t, &mut x, &free, Proof::OfGuess).is_ok() && nearer::stayed(&near, &x);
+    if is_found { Ok(x) } else { Err(fault) }
 }
 
 /// Moves the coordinates at the head of a state onto the constraints, the shortest way, and leaves the parameters.
@@ -143,7 +155,7 @@ where
 {
     const { assert!(N <= M, "a state begins with its coordinates") }
     let mut x: [R; N] = core::array::from_fn(|i| state[i]);
-    let moved = search(system, t, &mut x, &[true; N])?;
+    let moved = search(system, t, &mut x, &[true; N], Proof::OfStep)?;
     state[..N].copy_from_slice(&x);
     Ok(moved)
 }
@@ -218,12 +230,22 @@ pub fn onto<R: Real, const N: usize, const M: usize, const H: usize>(
     Err(PositionsError::NotFound { residual: largest(&f) })
 }
 
+/// Whether a search that ends at once asks the equations once more.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Proof {
+    /// A guess may be far off in coordinates that are small beside others.
+    OfGuess,
+    /// A step leaves little.
+    OfStep,
+}
+
 /// Newton's method on the coordinates that are free; the distance to where it began.
 fn search<R, S, const N: usize, const H: usize>(
     system: &S,
     t: R,
     x: &mut [R; N],
     free: &[bool; N],
+    proof: Proof,
 ) -> Result<f64, PositionsError>
 where
     R: Ordered,
@@ -231,12 +253,22 @@ where
 {
     /// Far more than a search takes that comes near a solution at all.
     const SEARCH_STEPS: usize = 60;
-    /// The shortest part of a step that is tried.
+    /// The shortest part of a step that is tried, of the longest that is.
     const SHORTEST: f64 = 1e-4;
+    /// The longest step over the largest coordinate: near a dead point steps lead far away, where angles have turned round many times.
+    const LONGEST: f64 = 2.0;
+    /// The part of a step that the next one may be at most where the digits have doubled.
+    const DOUBLED: f64 = 1e-6;
+    /// Roundings of the largest coordinate that a step may be where nothing gets shorter.
+    const ROUNDINGS: f64 = 1e3;
 
     let begin = *x;
     let precision = libm::sqrt(R::epsilon().to_f64());
-    let mut extent = x.iter().fold(0.0_f64, |most, x| most.max(x.to_f64().abs()));
+    let reach = |x: &[R; N]| {
+        let found = x.iter().zip(free).filter(|(_, free)| **free);
+        found.fold(0.0_f64, |most, (x, _)| most.max(x.to_f64().abs()))
+    };
+    let mut extent = reach(x);
     for round in 0..SEARCH_STEPS {
         let (f, gradients) = system.linearized(t, x);
         if f.iter().all(|f| f.to_f64() == 0.0) {
@@ -248,15 +280,25 @@ where
         if !length.is_finite() {
             return Err(PositionsError::NotFinite);
         }
-        if round == 0 {
-            extent = extent.max(length);
+        if extent == 0.0 {
+            extent = length;
         }
-        // Newton's method squares the error, so that after a step as short as this nothing is left to do.
+        // Newton's method squares the error, so that after a step as short as this nothing is left to do, if the error of every coordinate is
+        // small beside it. Of a guess the next step tells.
         if length <= precision * extent {
-            *x = moved(x, &step, 1.0);
-            return ended(system, t, x, &begin, precision * extent);
+            let there = moved(x, &step, 1.0);
+            let is_last = round == 0 && proof == Proof::OfStep || {
+                let next = size(&factor.step(&system.gaps(t, &there)));
+                next <= DOUBLED * length
+                    || next > length / 2.0 && length <= ROUNDINGS * R::epsilon().to_f64() * extent
+            };
+            if is_last {
+                *x = there;
+                return ended(system, t, x, &begin, precision * extent);
+            }
         }
-        let mut part = 1.0;
+        let longest = (LONGEST * extent / length).min(1.0);
+        let mut part = longest;
         loop {
             let trial = moved(x, &step, part);
             let gaps = system.gaps(t, &trial);
@@ -266,10 +308,11 @@ where
                 break;
             }
             part /= 2.0;
-            if part < SHORTEST {
+            if part < SHORTEST * longest {
                 return Err(PositionsError::NotFound { residual: largest(&f) });
             }
         }
+        extent = extent.max(reach(x));
     }
     Err(PositionsError::NotFound { residual: largest(&system.gaps(t, x)) })
 }
@@ -347,16 +390,16 @@ impl<R: Ordered, const N: usize, const H: usize> Factor<R, N, H> {
     }
 }
 
-fn moved<R: Real, const N: usize>(x: &[R; N], step: &[R; N], part: f64) -> [R; N] {
+pub(super) fn moved<R: Real, const N: usize>(x: &[R; N], step: &[R; N], part: f64) -> [R; N] {
     let part = R::from_f64(part);
     core::array::from_fn(|i| x[i] + part * step[i])
 }
 
-fn size<R: Real>(step: &[R]) -> f64 {
+pub(super) fn size<R: Real>(step: &[R]) -> f64 {
     libm::sqrt(step.iter().map(|e| e.to_f64() * e.to_f64()).sum())
 }
 
-fn distance<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> f64 {
+pub(super) fn distance<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> f64 {
     size(&core::array::from_fn::<R, N, _>(|i| a[i] - b[i]))
 }
 
