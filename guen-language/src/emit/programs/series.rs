@@ -103,6 +103,8 @@ fn blocks(statements: &[Statement], needed: &[String]) -> String {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Kept {
     Value(Value),
+    /// `2 a_0`
+    Twice(Value),
     /// `1 / a_0`
     Reciprocal(Value),
     /// `1 / (2 a_0)`
@@ -118,8 +120,6 @@ pub(super) trait Dialect {
     fn call(&self, function: Function, argument: &str) -> String;
     fn apply(&self, function: Multivariate, arguments: &[String]) -> String;
     fn reciprocal(&self, value: &str) -> String;
-    /// Twice a product.
-    fn doubled(&self, product: &str) -> String;
     /// The sum of products at a place, for order `m`.
     fn sum(&self, place: usize) -> String;
     /// The coefficient of a variable of order `m`.
@@ -160,12 +160,8 @@ impl Dialect for Rust<'_> {
         format!("R::recip({value})")
     }
 
-    fn doubled(&self, product: &str) -> String {
-        format!("{{ let p = {product}; p + p }}")
-    }
-
     fn sum(&self, place: usize) -> String {
-        format!("w.sum({place}, m)")
+        format!("w.sum({place})")
     }
 
     fn variable(&self, place: usize) -> String {
@@ -191,6 +187,8 @@ struct Writer<'a> {
     /// The number of variables of the state.
     states: usize,
     kept: BTreeMap<Kept, usize>,
+    /// The operations one after the other that lead to the coefficient of each value.
+    depths: Vec<u32>,
 }
 
 /// The functions `series` and `series_along`, whose parameters are those of a right-hand side and the request.
@@ -218,7 +216,7 @@ pub(super) struct Recurrences {
 impl Recurrences {
     /// Writes the recurrences of a program for so many variables of the state.
     pub(super) fn new(series: &SeriesProgram, states: usize, dialect: &dyn Dialect) -> Self {
-        let mut writer = Writer { series, dialect, states, kept: BTreeMap::new() };
+        let mut writer = Writer { series, dialect, states, kept: BTreeMap::new(), depths: depths(series) };
         let values = || (0..series.steps.len()).map(value);
         let next: Vec<Statement> = values().filter_map(|v| writer.next(v)).collect();
         let mut begin: Vec<Statement> = values().filter_map(|v| writer.begin(v)).collect();
@@ -236,12 +234,14 @@ impl Recurrences {
         for (what, place) in &writer.kept {
             let (v, text) = match what {
                 Kept::Value(v) => (v, format!("v{}", v.index())),
+                Kept::Twice(v) => (v, format!("e{}", v.index())),
                 Kept::Reciprocal(v) => (v, format!("r{}", v.index())),
                 Kept::HalfReciprocal(v) => (v, format!("h{}", v.index())),
             };
             let name = format!("v{}", v.index());
             let value = match what {
                 Kept::Value(_) => None,
+                Kept::Twice(_) => Some(format!("{name} + {name}")),
                 Kept::Reciprocal(_) => Some(dialect.reciprocal(&name)),
                 Kept::HalfReciprocal(_) => Some(dialect.reciprocal(&format!("{name} + {name}"))),
             };
@@ -284,10 +284,11 @@ fn function(series: &SeriesProgram, along_inputs: bool, loads: &dyn Loads, layou
         Recurrences::new(series, *size, &Rust(loads));
     let begun: Vec<String> = rates.iter().chain(&kept).cloned().collect();
     let used: Vec<String> = next_rates.iter().chain(&now).cloned().collect();
-    let pairs: String = pairs.iter().map(|[a, b]| format!("[{a}, {b}],")).collect();
-    let variables = rates.len();
-    let (list, sums, count) = (now.len(), series.sums.len(), kept.len());
-    let (rates, kept, now) = (rates.join(","), kept.join(","), now.join(","));
+    let (variables, sums, count) = (rates.len(), pairs.len(), kept.len());
+    // As many places as fill registers.
+    let row = if sums <= 4 { sums.next_power_of_two() } else { sums.next_multiple_of(8) };
+    let factors: String = pairs.iter().map(|[a, b]| format!("[{}, {}],", now[*a], now[*b])).collect();
+    let (rates, kept) = (rates.join(","), kept.join(","));
     let (name, given, first, further) = if along_inputs {
         let given = format!("&mut dyn FnMut(usize, &__guen::Coefficients<R, {size}>) -> [R; {inputs}]");
         ("series_along", given, "let g = u(0, out);", "let y = u(m, out);")
@@ -300,14 +301,13 @@ fn function(series: &SeriesProgram, along_inputs: bool, loads: &dyn Loads, layou
             c: &[R; {constants}], k: &[R; {hoisted}], t: R, s: &[R; {size}], u: {given},
             scale: R, order: usize, out: &mut __guen::Coefficients<R, {size}>,
         ) {{
-            const PAIRS: [[u16; 2]; {sums}] = [{pairs}];
             let order = if order > __guen::HIGHEST_ORDER {{ __guen::HIGHEST_ORDER }} else {{ order }};
             out[0] = *s;
             {first}
             {begin}
             let mut f: [R; {variables}] = [{rates}];
             let z: [R; {count}] = [{kept}];
-            let mut w = __guen::Convolutions::<R, {list}, {sums}>::new(order);
+            let mut w = __guen::Convolutions::<R, {sums}, {row}>::new(order);
             let mut m = 1_usize;
             while m <= order {{
                 let count = R::from_f64(m as f64);
@@ -322,7 +322,7 @@ fn function(series: &SeriesProgram, along_inputs: bool, loads: &dyn Loads, layou
                 {further}
                 {next}
                 f = [{next_rates}];
-                w.push(&PAIRS, &[{now}], m);
+                w.push(&[{factors}], m);
                 m += 1;
             }}
         }}"
@@ -331,6 +331,24 @@ fn function(series: &SeriesProgram, along_inputs: bool, loads: &dyn Loads, layou
 
 fn value(index: usize) -> Value {
     Value::new(index)
+}
+
+/// The operations one after the other that lead to the coefficient of each value. Sums are known before.
+fn depths(series: &SeriesProgram) -> Vec<u32> {
+    let mut depths: Vec<u32> = Vec::with_capacity(series.steps.len());
+    for step in &series.steps {
+        let own = match step {
+            SeriesStep::Still(_) | SeriesStep::Time | SeriesStep::Variable(_) | SeriesStep::Input(_) => 0,
+            SeriesStep::Product(..) | SeriesStep::Along(..) | SeriesStep::SquareRoot(..) => 2,
+            SeriesStep::Quotient(..) => 3,
+            _ => 1,
+        };
+        // The second factor of a derivative may come later, and is not needed.
+        let operands = step.operands();
+        let deepest = operands.iter().filter_map(|v| depths.get(v.index())).max();
+        depths.push(own + if own == 0 { 0 } else { deepest.copied().unwrap_or_default() });
+    }
+    depths
 }
 
 impl Writer<'_> {
@@ -454,12 +472,14 @@ impl Writer<'_> {
             SeriesStep::Neg(a) => format!("-{}", at(a)),
             SeriesStep::Scale(k, a) => format!("{} * {}", self.zeroth(*k), at(a)),
             SeriesStep::Product(a, b, place) if a == b => {
-                let product = format!("{} * {}", self.zeroth(*a), at(a));
-                format!("{} + {}", sum(*place), self.dialect.doubled(&product))
+                format!("{} + {} * {}", sum(*place), self.keep(Kept::Twice(*a)), at(a))
             }
             SeriesStep::Product(a, b, place) => {
-                let (za, zb) = (self.zeroth(*a), self.zeroth(*b));
-                format!("{} + ({za} * {} + {} * {zb})", sum(*place), at(b), at(a))
+                // What is known last is added last.
+                let (early, late) =
+                    if self.depths[a.index()] > self.depths[b.index()] { (b, a) } else { (a, b) };
+                let (of_early, of_late) = (self.zeroth(*late), self.zeroth(*early));
+                format!("({} + {of_early} * {}) + {of_late} * {}", sum(*place), at(early), at(late))
             }
             SeriesStep::Along(a, b, place) => {
                 uses.truncate(1);
@@ -467,11 +487,12 @@ impl Writer<'_> {
             }
             SeriesStep::Quotient(a, b, place) => {
                 let (quotient, reciprocal) = (self.zeroth(v), self.keep(Kept::Reciprocal(*b)));
-                let rest = format!("({} + {quotient} * {})", sum(*place), at(b));
                 if still(a) {
-                    format!("-{rest} * {reciprocal}")
+                    format!("-({} + {quotient} * {}) * {reciprocal}", sum(*place), at(b))
+                } else if self.depths[a.index()] > self.depths[b.index()] {
+                    format!("({} - ({} + {quotient} * {})) * {reciprocal}", at(a), sum(*place), at(b))
                 } else {
-                    format!("({} - {rest}) * {reciprocal}", at(a))
+                    format!("(({} - {}) - {quotient} * {}) * {reciprocal}", at(a), sum(*place), at(b))
                 }
             }
             SeriesStep::SquareRoot(a, place) => {

@@ -166,10 +166,6 @@ impl Dialect for C<'_> {
         format!("1.0 / ({value})")
     }
 
-    fn doubled(&self, product: &str) -> String {
-        format!("({product} + {product})")
-    }
-
     fn sum(&self, place: usize) -> String {
         format!("sums[{place}][m & 31]")
     }

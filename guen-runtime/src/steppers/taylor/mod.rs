@@ -48,7 +48,7 @@ pub use series::Series;
 /// - A right-hand side has to be analytic along the motion: `abs` and `sign` are refused when the system is declared.
 /// - Tolerances and steps are `f64` for every real; with duals the values alone decide the steps.
 /// - Cost of a step: `p` coefficients, each like an evaluation of the right-hand side without its elementary functions, and
-///   `p^2` products for each of [`TaylorSeries::PRODUCTS`]. The workspace is on the stack, some 450 bytes for each of these.
+///   `p^2` products for each of [`TaylorSeries::PRODUCTS`]. The workspace is on the stack, some 500 bytes for each of these.
 /// - Sources: A. Jorba and M. Zou, *A software package for the numerical integration of ODEs by means of high-order Taylor
 ///   methods*, Experimental Mathematics 14 (2005) 99-117, for order and step; R. E. Moore, *Interval Analysis*, 1966, for
 ///   the recurrences; O. Moller, *Quasi double-precision in floating point addition*, BIT 5 (1965) 37-50, for the sum.

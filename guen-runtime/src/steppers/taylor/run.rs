@@ -61,7 +61,7 @@ pub struct Run<'a, R, const N: usize> {
 /// The power of two next to a positive number, on a logarithmic scale; its exponent is kept where its powers up to the
 /// highest order mean something to `f32`.
 fn power_of_two(x: f64) -> f64 {
-    libm::exp2(libm::round(log2(x)).clamp(-1000.0, 1000.0))
+    exp2(libm::round(log2(x)).clamp(-1000.0, 1000.0))
 }
 
 /// The binary logarithm of a positive number, off by less than a tenth: the exponent, and the mantissa as if it were

@@ -35,8 +35,8 @@ pub type Coefficients<R, const N: usize> = [[R; N]; HIGHEST_ORDER + 1];
 ///         for k in 1..=order {
 ///             to[k] = [scale * rate / k as f64];
 ///             let x = to[k][0];
-///             rate = sums.sum(0, k) + 2.0 * state[0] * x;
-///             sums.push(&[[0, 0]], &[x], k);
+///             rate = sums.sum(0) + 2.0 * state[0] * x;
+///             sums.push(&[[x, x]], k);
 ///         }
 ///     }
 /// }
@@ -125,24 +125,24 @@ pub trait DrivenSeries<R: Real, const N: usize, const M: usize> {
     );
 }
 
-/// Numbers that are added to at once.
-const BLOCK: usize = 8;
-/// Coefficients of a factor that meet another one of the same order or more: of orders 1 to 15.
-const KEPT: usize = 16;
-/// Sums up to the highest order but one, and what is written beyond while adding whole blocks.
-const SUMS: usize = HIGHEST_ORDER + BLOCK;
+/// Orders whose coefficients are kept: sums are asked for up to the order before the highest, and need those below.
+const KEPT: usize = HIGHEST_ORDER - 2;
 
-/// The sums `S_k(a, b) = sum_{j=1}^{k-1} a_j b_{k-j}` of a series program while it runs, by their place: `A` factors,
-/// `B` sums.
+/// The sums `S_k(a, b) = sum_{j=1}^{k-1} a_j b_{k-j}` of a series program while it runs, by their place: `A` sums, in rows
+/// of `B` places. Rows are at least as long, and fill registers if their length is 1, 2, 4 or a multiple of 8.
 ///
-/// A coefficient, once known, is multiplied at once with all that are known before, and the products are added to the
-/// sums of all higher orders where they belong. So the work is the same as that of summing when a sum is needed, but it
-/// lies beside the path from one coefficient to the next, adjacent numbers are added to adjacent sums, whatever the width
-/// of the registers, and every sum is formed in one order, whatever that width. [`TaylorSeries`] has an example.
+/// The coefficients of an order are kept as two rows, the first factors of all sums and the second ones. So eight sums are formed
+/// side by side, one in each place of a register, and every sum is formed in one order, whatever the width of the registers. Those
+/// of an odd order are formed together with those of the order before, from the same rows, but for their last term.
+/// [`TaylorSeries`] has an example.
 #[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
 pub struct Convolutions<R, const A: usize, const B: usize> {
-    factors: [[R; KEPT]; A],
-    sums: [[R; SUMS]; B],
+    /// From order one on.
+    rows: [[[R; B]; 2]; KEPT],
+    sums: [R; B],
+    /// The sums of the order after that, without their last term.
+    next: [R; B],
     order: usize,
 }
 
@@ -150,104 +150,126 @@ impl<R: Real, const A: usize, const B: usize> Convolutions<R, A, B> {
     /// Creates empty sums for a series up to this order, at most [`HIGHEST_ORDER`].
     #[inline(always)]
     pub fn new(order: usize) -> Self {
-        Self {
-            factors: [[R::zero(); KEPT]; A],
-            sums: [[R::zero(); SUMS]; B],
-            order: order.min(HIGHEST_ORDER),
-        }
+        const { assert!(A <= B, "rows have a place for every sum") };
+        let empty = [R::zero(); B];
+        Self { rows: [[empty; 2]; KEPT], sums: empty, next: empty, order: order.min(HIGHEST_ORDER) }
     }
 
-    /// The sum at this place, for the coefficient of order `k` below the highest.
+    /// The sum at this place, for the order of the coefficients that are taken in next.
     #[inline(always)]
-    pub fn sum(&self, place: usize, k: usize) -> R {
-        self.sums[place][k & 31]
+    pub fn sum(&self, place: usize) -> R {
+        self.sums[place]
     }
 
-    /// Takes in the coefficients of order `k` of all factors; `pairs` are the two factors of each sum, always the same. In a
+    /// Takes in the coefficients of order `k` of both factors of each sum: of order one first, then of two, and so on. In a
     /// closure for [`Real::wide`] this is done in the longest registers of the processor, as generated systems do.
     #[inline(always)]
-    pub fn push(&mut self, pairs: &[[u16; 2]; B], now: &[R; A], k: usize) {
+    pub fn push(&mut self, factors: &[[R; 2]; A], k: usize) {
         // The coefficients of the highest order follow from sums for the order below.
-        let last = self.order.saturating_sub(1);
-        if k >= last {
+        if k + 1 >= self.order {
             return;
         }
-        spread(&mut self.factors, &mut self.sums, pairs, now, k, last);
+        let Some([first, second]) = self.rows.get_mut(k.wrapping_sub(1)) else { return };
+        for ((first, second), [a, b]) in first.iter_mut().zip(second).zip(factors) {
+            (*first, *second) = (*a, *b);
+        }
+        let (mut place, long) = (0, size_of::<R>() > size_of::<f64>());
+        while place < A {
+            place += match B - place {
+                8.. if !long => self.form::<8>(k, place),
+                4.. if !long => self.form::<4>(k, place),
+                2.. if !long => self.form::<2>(k, place),
+                _ => self.form::<1>(k, place),
+            };
+        }
+    }
+
+    /// Forms `W` sums of order `k + 1` from a place on; returns `W`.
+    #[inline(always)]
+    fn form<const W: usize>(&mut self, k: usize, place: usize) -> usize {
+        let row =
+            |[first, second]: &[[R; B]; 2]| [part::<R, B, W>(first, place), part::<R, B, W>(second, place)];
+        let (mut sum, mut next) = ([R::zero(); W], [R::zero(); W]);
+        // Of what is always there nothing is asked in a way that leaves a panic.
+        if k.is_multiple_of(2) {
+            let [first, ..] = &self.rows;
+            let Some(last) = self.rows.get(k - 1) else { return W };
+            sum = part(&self.next, place);
+            add(&mut sum, row(first), row(last));
+        } else {
+            let half = k / 2;
+            let (Some(middle), Some(later), Some(earlier)) =
+                (self.rows.get(half), self.rows.get(half + 1..k), self.rows.get(..half))
+            else {
+                return W;
+            };
+            let mut before = row(middle);
+            for i in 0..W {
+                sum[i] += before[0][i] * before[1][i];
+            }
+            for (later, earlier) in later.iter().zip(earlier.iter().rev()) {
+                let (later, earlier) = (row(later), row(earlier));
+                add(&mut sum, earlier, later);
+                add(&mut next, before, later);
+                before = earlier;
+            }
+        }
+        put(&mut self.sums, place, sum);
+        put(&mut self.next, place, next);
+        W
     }
 }
 
-/// Adds the products of the coefficients of order `k` to the sums of orders `k + 1 .. 2 k`, up to `last`.
+/// Adds `a_j b_k + b_j a_k`.
 #[inline(always)]
-fn spread<R: Real>(
-    factors: &mut [[R; KEPT]],
-    sums: &mut [[R; SUMS]],
-    pairs: &[[u16; 2]],
-    now: &[R],
-    k: usize,
-    last: usize,
-) {
-    let below = (k - 1).min(last - k);
-    if size_of::<R>() > size_of::<f64>() {
-        one_by_one(factors, sums, pairs, now, k, below);
-    } else if below == 0 {
-    } else if below <= BLOCK {
-        in_blocks::<R, 1>(factors, sums, pairs, now, k);
-    } else {
-        in_blocks::<R, 2>(factors, sums, pairs, now, k);
+fn add<R: Real, const W: usize>(sum: &mut [R; W], earlier: [[R; W]; 2], later: [[R; W]; 2]) {
+    for i in 0..W {
+        sum[i] += earlier[0][i] * later[1][i] + earlier[1][i] * later[0][i];
     }
-    if 2 * k <= last {
-        for (sum, [a, b]) in sums.iter_mut().zip(pairs) {
-            if let Some(square) = sum.get_mut(2 * k) {
-                *square += now[usize::from(*a)] * now[usize::from(*b)];
+}
+
+/// `W` numbers of a row from a place on.
+#[inline(always)]
+fn part<R: Real, const B: usize, const W: usize>(row: &[R; B], place: usize) -> [R; W] {
+    row.get(place..).and_then(|row| row.first_chunk::<W>()).copied().unwrap_or([R::zero(); W])
+}
+
+/// Puts `W` numbers into a row from a place on.
+#[inline(always)]
+fn put<R, const B: usize, const W: usize>(row: &mut [R; B], place: usize, values: [R; W]) {
+    if let Some(places) = row.get_mut(place..).and_then(|row| row.first_chunk_mut::<W>()) {
+        *places = values;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Dual;
+
+    /// Compares with sums term by term, of integers: both are exact.
+    fn sums_are_those_of_the_terms<R: Real, const A: usize, const B: usize>() {
+        let coefficient = |place: usize, k: usize| ((place * 7 + k * 5) % 11) as f64 - 4.0;
+        let mut sums = Convolutions::<R, A, B>::new(HIGHEST_ORDER);
+        for k in 1..HIGHEST_ORDER - 1 {
+            let factors = core::array::from_fn(|p| [p, p + A].map(|p| R::from_f64(coefficient(p, k))));
+            sums.push(&factors, k);
+            for place in 0..A {
+                let expected: f64 =
+                    (1..=k).map(|j| coefficient(place, j) * coefficient(place + A, k + 1 - j)).sum();
+                assert_eq!(sums.sum(place).to_f64(), expected, "sum {place} of {A}, order {}", k + 1);
             }
         }
     }
-    for (row, value) in factors.iter_mut().zip(now) {
-        if let Some(place) = row.get_mut(k - 1) {
-            *place = *value;
-        }
-    }
-}
 
-/// `sum_{k+j} += a_k b_j + b_k a_j` for `B` blocks of `j`, from one. Coefficients that are not known yet are zeros.
-#[inline(always)]
-fn in_blocks<R: Real, const B: usize>(
-    factors: &[[R; KEPT]],
-    sums: &mut [[R; SUMS]],
-    pairs: &[[u16; 2]],
-    now: &[R],
-    k: usize,
-) {
-    for (sum, [a, b]) in sums.iter_mut().zip(pairs) {
-        let (a, b) = (usize::from(*a), usize::from(*b));
-        let (of_a, of_b) = (now[a], now[b]);
-        let (ahead, _) = sum[k + 1..].as_chunks_mut::<BLOCK>();
-        let (row_a, row_b) = (factors[a].as_chunks::<BLOCK>().0, factors[b].as_chunks::<BLOCK>().0);
-        for ((ahead, row_a), row_b) in ahead.iter_mut().zip(row_a).zip(row_b).take(B) {
-            // Read as a whole, then written as a whole: so it is clear that nothing is written that is still to be read.
-            let mut block = *ahead;
-            let (row_a, row_b) = (*row_a, *row_b);
-            for i in 0..BLOCK {
-                block[i] += row_a[i] * of_b + row_b[i] * of_a;
-            }
-            *ahead = block;
-        }
-    }
-}
-
-/// Adds the products for exactly so many `j`: of long reals every product counts.
-fn one_by_one<R: Real>(
-    factors: &[[R; KEPT]],
-    sums: &mut [[R; SUMS]],
-    pairs: &[[u16; 2]],
-    now: &[R],
-    k: usize,
-    below: usize,
-) {
-    for (sum, [a, b]) in sums.iter_mut().zip(pairs) {
-        let (a, b) = (usize::from(*a), usize::from(*b));
-        for j in 1..=below {
-            sum[k + j] += factors[a][j - 1] * now[b] + factors[b][j - 1] * now[a];
-        }
+    #[test]
+    fn rows_of_any_length_have_the_sums_of_the_terms() {
+        sums_are_those_of_the_terms::<f64, 1, 1>();
+        sums_are_those_of_the_terms::<f64, 2, 2>();
+        sums_are_those_of_the_terms::<f64, 3, 4>();
+        sums_are_those_of_the_terms::<f64, 13, 16>();
+        sums_are_those_of_the_terms::<f64, 15, 15>();
+        sums_are_those_of_the_terms::<f32, 5, 8>();
+        sums_are_those_of_the_terms::<Dual<f64, 2>, 13, 16>();
     }
 }
