@@ -156,21 +156,6 @@ pub struct Reset {
     pub assignments: Vec<ResetAssignment>,
 }
 
-impl Reset {
-    /// The expressions, in order: the function, then each variable with its new value.
-    pub fn expressions(&self) -> Vec<&Expression> {
-        let assignments = self.assignments.iter().flat_map(|given| [&given.variable, &given.value]);
-        std::iter::once(&self.function).chain(assignments).collect()
-    }
-
-    /// The expressions in the same order, to be changed.
-    pub fn expressions_mut(&mut self) -> Vec<&mut Expression> {
-        let assignments =
-            self.assignments.iter_mut().flat_map(|given| [&mut given.variable, &mut given.value]);
-        std::iter::once(&mut self.function).chain(assignments).collect()
-    }
-}
-
 /// The direction in which a function goes through zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Crossing {

@@ -192,28 +192,6 @@ impl Expression {
         1 + self.children().into_iter().map(Expression::depth).max().unwrap_or_default()
     }
 
-    /// The expressions directly inside, from left to right.
-    pub fn children(&self) -> Vec<&Expression> {
-        match &self.kind {
-            ExpressionKind::Missing | ExpressionKind::Number(_) | ExpressionKind::Name(_) => Vec::new(),
-            ExpressionKind::Call { arguments, .. } => arguments.iter().collect(),
-            ExpressionKind::Field { base, .. } => vec![base],
-            ExpressionKind::Method { base, arguments, .. } => {
-                std::iter::once(&**base).chain(arguments).collect()
-            }
-            ExpressionKind::Negation(operand) => vec![operand],
-            ExpressionKind::Sum { first, rest } => {
-                std::iter::once(&**first).chain(rest.iter().map(|t| &t.value)).collect()
-            }
-            ExpressionKind::Product { first, rest } => {
-                std::iter::once(&**first).chain(rest.iter().map(|f| &f.value)).collect()
-            }
-            ExpressionKind::Comparison { left, right, .. } => vec![left, right],
-            ExpressionKind::Power { base, exponent } => vec![base, exponent],
-            ExpressionKind::Fold(fold) => vec![&fold.body],
-        }
-    }
-
     /// Whether something holds for the expression or for one inside of it.
     fn any(&self, holds: &dyn Fn(&Expression) -> bool) -> bool {
         holds(self) || self.children().into_iter().any(|part| part.any(holds))

@@ -23,236 +23,170 @@ impl Item {
             _ => &[],
         }
     }
-
-    /// The names that the item declares, in order.
-    pub fn declared(&self) -> Vec<&Name> {
-        match self {
-            Item::Count(count) => vec![&count.name],
-            Item::Constants(section) => section.entries.iter().map(|entry| &entry.name).collect(),
-            Item::Functions(section) => section.entries.iter().map(|entry| &entry.name).collect(),
-            Item::Inputs(section) | Item::Coordinates(section) => {
-                section.entries.iter().map(|entry| &entry.name).collect()
-            }
-            Item::Let(definition) => vec![&definition.name],
-            Item::Function(function) => vec![&function.name],
-            Item::Parameters(section) | Item::Outputs(section) => {
-                section.entries.iter().map(|entry| &entry.name).collect()
-            }
-            Item::Constraints(section) | Item::Holonomic(section) => {
-                section.entries.iter().map(|entry| &entry.name).collect()
-            }
-            Item::States(section) => section.entries.iter().map(|entry| &entry.name).collect(),
-            Item::Bodies(section) => section.entries.iter().map(|entry| &entry.name).collect(),
-            Item::Switches(section) => section.entries.iter().map(|entry| &entry.name).collect(),
-            Item::Contacts(section) => section.entries.iter().map(|entry| &entry.name).collect(),
-            Item::Resets(section) => section.entries.iter().map(|entry| &entry.name).collect(),
-            Item::Component(component) => vec![&component.name],
-            Item::Use(instance) => vec![&instance.name],
-            Item::Argument(argument) => vec![&argument.name],
-            Item::KineticEnergy(_)
-            | Item::Particles(_)
-            | Item::Gravity(_)
-            | Item::ForceFunction(_)
-            | Item::PotentialEnergy(_)
-            | Item::Forces(_)
-            | Item::Modes(_)
-            | Item::Provide(_)
-            | Item::Scene(_) => Vec::new(),
-        }
-    }
-
-    /// The expressions of the item, in order; without those of scenes and of components.
-    pub fn expressions(&self) -> Vec<&Expression> {
-        match self {
-            Item::Constants(section) => {
-                let limits = section.entries.iter().filter_map(|entry| entry.limits.as_deref()).flatten();
-                section.entries.iter().filter_map(|entry| entry.default.as_ref()).chain(limits).collect()
-            }
-            Item::Inputs(section) | Item::Coordinates(section) => section
-                .entries
-                .iter()
-                .flat_map(|entry| entry.limits.iter().flat_map(|limits| limits.iter()))
-                .collect(),
-            Item::Let(definition) => vec![&definition.value],
-            Item::Function(function) => vec![&function.value],
-            Item::Parameters(section) | Item::Outputs(section) => {
-                section.entries.iter().map(|entry| &entry.value).collect()
-            }
-            Item::Constraints(section) | Item::Holonomic(section) => {
-                section.entries.iter().flat_map(|entry| [&entry.left, &entry.right]).collect()
-            }
-            Item::Particles(section) => {
-                section.entries.iter().flat_map(|entry| [&entry.mass, &entry.position]).collect()
-            }
-            Item::Bodies(section) => section.entries.iter().flat_map(Body::expressions).collect(),
-            Item::KineticEnergy(quantity)
-            | Item::Gravity(quantity)
-            | Item::ForceFunction(quantity)
-            | Item::PotentialEnergy(quantity) => vec![&quantity.value],
-            Item::States(section) => section.entries.iter().map(|entry| &entry.rate).collect(),
-            Item::Forces(section) => {
-                section.entries.iter().flat_map(|entry| [&entry.force, &entry.direction]).collect()
-            }
-            Item::Use(instance) => instance.arguments.iter().map(|argument| &argument.value).collect(),
-            Item::Switches(section) => section.entries.iter().map(|entry| &entry.value).collect(),
-            Item::Contacts(section) => {
-                let clauses = section.entries.iter().flat_map(|entry| &entry.clauses);
-                clauses.map(|clause| &clause.value).collect()
-            }
-            Item::Resets(section) => section.entries.iter().flat_map(Reset::expressions).collect(),
-            Item::Argument(argument) => vec![&argument.given.value],
-            Item::Count(_)
-            | Item::Functions(_)
-            | Item::Component(_)
-            | Item::Modes(_)
-            | Item::Provide(_)
-            | Item::Scene(_) => Vec::new(),
-        }
-    }
 }
 
-impl ModeStatement {
-    /// The contacts that the statement speaks of.
-    pub fn contacts(&self) -> Vec<&Name> {
-        match self {
-            ModeStatement::States { contact, .. } => vec![contact],
-            ModeStatement::Never { combination, .. } => {
-                combination.iter().map(|(contact, _)| contact).collect()
+/// Methods that look at the parts of items and expressions, or, with the word `mut`, that hand them out to be changed.
+macro_rules! walk {
+    ($declared:ident $expressions:ident $contacts:ident $children:ident $iter:ident $($mut:ident)?) => {
+        impl Item {
+            /// The names that the item declares, in order.
+            pub fn $declared(&$($mut)? self) -> Vec<&$($mut)? Name> {
+                macro_rules! names {
+                    ($section:ident) => {
+                        $section.entries.$iter().map(|entry| &$($mut)? entry.name).collect()
+                    };
+                }
+                match self {
+                    Item::Count(count) => vec![&$($mut)? count.name],
+                    Item::Constants(section) => names!(section),
+                    Item::Functions(section) => names!(section),
+                    Item::Inputs(section) | Item::Coordinates(section) => names!(section),
+                    Item::Let(definition) => vec![&$($mut)? definition.name],
+                    Item::Function(function) => vec![&$($mut)? function.name],
+                    Item::Parameters(section) | Item::Outputs(section) => names!(section),
+                    Item::Constraints(section) | Item::Holonomic(section) => names!(section),
+                    Item::States(section) => names!(section),
+                    Item::Bodies(section) => names!(section),
+                    Item::Switches(section) => names!(section),
+                    Item::Contacts(section) => names!(section),
+                    Item::Resets(section) => names!(section),
+                    Item::Component(component) => vec![&$($mut)? component.name],
+                    Item::Use(instance) => vec![&$($mut)? instance.name],
+                    Item::Argument(argument) => vec![&$($mut)? argument.name],
+                    Item::KineticEnergy(_)
+                    | Item::Particles(_)
+                    | Item::Gravity(_)
+                    | Item::ForceFunction(_)
+                    | Item::PotentialEnergy(_)
+                    | Item::Forces(_)
+                    | Item::Modes(_)
+                    | Item::Provide(_)
+                    | Item::Scene(_) => Vec::new(),
+                }
+            }
+
+            /// The expressions of the item, in order; without those of scenes and of components.
+            pub fn $expressions(&$($mut)? self) -> Vec<&$($mut)? Expression> {
+                macro_rules! parts {
+                    ($section:ident: $field:ident) => {
+                        $section.entries.$iter().map(|entry| &$($mut)? entry.$field).collect()
+                    };
+                    ($section:ident: $first:ident $second:ident) => {
+                        $section
+                            .entries
+                            .$iter()
+                            .flat_map(|entry| [&$($mut)? entry.$first, &$($mut)? entry.$second])
+                            .collect()
+                    };
+                }
+                match self {
+                    Item::Constants(section) => {
+                        let parts = section.entries.$iter().flat_map(|entry| {
+                            let limits = entry.limits.$iter().flat_map(|limits| limits.$iter());
+                            entry.default.$iter().chain(limits)
+                        });
+                        parts.collect()
+                    }
+                    Item::Inputs(section) | Item::Coordinates(section) => {
+                        let limits = section.entries.$iter().flat_map(|entry| entry.limits.$iter());
+                        limits.flat_map(|limits| limits.$iter()).collect()
+                    }
+                    Item::Let(definition) => vec![&$($mut)? definition.value],
+                    Item::Function(function) => vec![&$($mut)? function.value],
+                    Item::Parameters(section) | Item::Outputs(section) => parts!(section: value),
+                    Item::Constraints(section) | Item::Holonomic(section) => parts!(section: left right),
+                    Item::Particles(section) => parts!(section: mass position),
+                    Item::Bodies(section) => section.entries.$iter().flat_map(Body::$expressions).collect(),
+                    Item::KineticEnergy(quantity)
+                    | Item::Gravity(quantity)
+                    | Item::ForceFunction(quantity)
+                    | Item::PotentialEnergy(quantity) => vec![&$($mut)? quantity.value],
+                    Item::States(section) => parts!(section: rate),
+                    Item::Forces(section) => parts!(section: force direction),
+                    Item::Use(instance) => {
+                        instance.arguments.$iter().map(|argument| &$($mut)? argument.value).collect()
+                    }
+                    Item::Switches(section) => parts!(section: value),
+                    Item::Contacts(section) => {
+                        let clauses = section.entries.$iter().flat_map(|entry| entry.clauses.$iter());
+                        clauses.map(|clause| &$($mut)? clause.value).collect()
+                    }
+                    Item::Resets(section) => section.entries.$iter().flat_map(Reset::$expressions).collect(),
+                    Item::Argument(argument) => vec![&$($mut)? argument.given.value],
+                    Item::Count(_)
+                    | Item::Functions(_)
+                    | Item::Component(_)
+                    | Item::Modes(_)
+                    | Item::Provide(_)
+                    | Item::Scene(_) => Vec::new(),
+                }
             }
         }
-    }
 
-    /// The contacts that the statement speaks of, to be changed.
-    pub fn contacts_mut(&mut self) -> Vec<&mut Name> {
-        match self {
-            ModeStatement::States { contact, .. } => vec![contact],
-            ModeStatement::Never { combination, .. } => {
-                combination.iter_mut().map(|(contact, _)| contact).collect()
+        impl ModeStatement {
+            /// The contacts that the statement speaks of.
+            pub fn $contacts(&$($mut)? self) -> Vec<&$($mut)? Name> {
+                match self {
+                    ModeStatement::States { contact, .. } => vec![contact],
+                    ModeStatement::Never { combination, .. } => {
+                        combination.$iter().map(|(contact, _)| contact).collect()
+                    }
+                }
             }
         }
-    }
-}
 
-impl Item {
-    /// The names that the item declares, in order, to be changed.
-    pub fn declared_mut(&mut self) -> Vec<&mut Name> {
-        match self {
-            Item::Count(count) => vec![&mut count.name],
-            Item::Constants(section) => section.entries.iter_mut().map(|entry| &mut entry.name).collect(),
-            Item::Functions(section) => section.entries.iter_mut().map(|entry| &mut entry.name).collect(),
-            Item::Inputs(section) | Item::Coordinates(section) => {
-                section.entries.iter_mut().map(|entry| &mut entry.name).collect()
+        impl Body {
+            /// The expressions of its fields, in order.
+            pub fn $expressions(&$($mut)? self) -> Vec<&$($mut)? Expression> {
+                let fields = [&$($mut)? self.mass, &$($mut)? self.center, &$($mut)? self.orientation];
+                let inertia = self.inertia.$iter().flat_map(|field| match &$($mut)? field.value {
+                    Inertia::Diagonal(entries) => entries.$iter(),
+                    Inertia::Symmetric(entries) => entries.$iter(),
+                    Inertia::Missing => [].$iter(),
+                });
+                fields.into_iter().flatten().map(|field| &$($mut)? field.value).chain(inertia).collect()
             }
-            Item::Let(definition) => vec![&mut definition.name],
-            Item::Function(function) => vec![&mut function.name],
-            Item::Parameters(section) | Item::Outputs(section) => {
-                section.entries.iter_mut().map(|entry| &mut entry.name).collect()
-            }
-            Item::Constraints(section) | Item::Holonomic(section) => {
-                section.entries.iter_mut().map(|entry| &mut entry.name).collect()
-            }
-            Item::States(section) => section.entries.iter_mut().map(|entry| &mut entry.name).collect(),
-            Item::Bodies(section) => section.entries.iter_mut().map(|entry| &mut entry.name).collect(),
-            Item::Switches(section) => section.entries.iter_mut().map(|entry| &mut entry.name).collect(),
-            Item::Contacts(section) => section.entries.iter_mut().map(|entry| &mut entry.name).collect(),
-            Item::Resets(section) => section.entries.iter_mut().map(|entry| &mut entry.name).collect(),
-            Item::Component(component) => vec![&mut component.name],
-            Item::Use(instance) => vec![&mut instance.name],
-            Item::Argument(argument) => vec![&mut argument.name],
-            Item::KineticEnergy(_)
-            | Item::Particles(_)
-            | Item::Gravity(_)
-            | Item::ForceFunction(_)
-            | Item::PotentialEnergy(_)
-            | Item::Forces(_)
-            | Item::Modes(_)
-            | Item::Provide(_)
-            | Item::Scene(_) => Vec::new(),
         }
-    }
 
-    /// The expressions of the item, in order, to be changed; without those of scenes and of components.
-    pub fn expressions_mut(&mut self) -> Vec<&mut Expression> {
-        match self {
-            Item::Constants(section) => {
-                let parts = section.entries.iter_mut().map(|entry| (&mut entry.default, &mut entry.limits));
-                parts
-                    .flat_map(|(default, limits)| {
-                        default.iter_mut().chain(limits.iter_mut().flat_map(|l| &mut **l))
-                    })
-                    .collect()
+        impl Reset {
+            /// The expressions, in order: the function, then each variable with its new value.
+            pub fn $expressions(&$($mut)? self) -> Vec<&$($mut)? Expression> {
+                let assignments =
+                    self.assignments.$iter().flat_map(|given| [&$($mut)? given.variable, &$($mut)? given.value]);
+                std::iter::once(&$($mut)? self.function).chain(assignments).collect()
             }
-            Item::Inputs(section) | Item::Coordinates(section) => section
-                .entries
-                .iter_mut()
-                .flat_map(|entry| entry.limits.iter_mut().flat_map(|limits| limits.iter_mut()))
-                .collect(),
-            Item::Let(definition) => vec![&mut definition.value],
-            Item::Function(function) => vec![&mut function.value],
-            Item::Parameters(section) | Item::Outputs(section) => {
-                section.entries.iter_mut().map(|entry| &mut entry.value).collect()
-            }
-            Item::Constraints(section) | Item::Holonomic(section) => {
-                section.entries.iter_mut().flat_map(|entry| [&mut entry.left, &mut entry.right]).collect()
-            }
-            Item::Particles(section) => {
-                section.entries.iter_mut().flat_map(|entry| [&mut entry.mass, &mut entry.position]).collect()
-            }
-            Item::Bodies(section) => section.entries.iter_mut().flat_map(Body::expressions_mut).collect(),
-            Item::KineticEnergy(quantity)
-            | Item::Gravity(quantity)
-            | Item::ForceFunction(quantity)
-            | Item::PotentialEnergy(quantity) => vec![&mut quantity.value],
-            Item::States(section) => section.entries.iter_mut().map(|entry| &mut entry.rate).collect(),
-            Item::Forces(section) => section
-                .entries
-                .iter_mut()
-                .flat_map(|entry| [&mut entry.force, &mut entry.direction])
-                .collect(),
-            Item::Use(instance) => {
-                instance.arguments.iter_mut().map(|argument| &mut argument.value).collect()
-            }
-            Item::Switches(section) => section.entries.iter_mut().map(|entry| &mut entry.value).collect(),
-            Item::Contacts(section) => {
-                let clauses = section.entries.iter_mut().flat_map(|entry| &mut entry.clauses);
-                clauses.map(|clause| &mut clause.value).collect()
-            }
-            Item::Resets(section) => section.entries.iter_mut().flat_map(Reset::expressions_mut).collect(),
-            Item::Argument(argument) => vec![&mut argument.given.value],
-            Item::Count(_)
-            | Item::Functions(_)
-            | Item::Component(_)
-            | Item::Modes(_)
-            | Item::Provide(_)
-            | Item::Scene(_) => Vec::new(),
         }
-    }
+
+        impl Expression {
+            /// The expressions directly inside, from left to right.
+            pub fn $children(&$($mut)? self) -> Vec<&$($mut)? Expression> {
+                match &$($mut)? self.kind {
+                    ExpressionKind::Missing | ExpressionKind::Number(_) | ExpressionKind::Name(_) => Vec::new(),
+                    ExpressionKind::Call { arguments, .. } => arguments.$iter().collect(),
+                    ExpressionKind::Field { base, .. } => vec![base],
+                    ExpressionKind::Method { base, arguments, .. } => {
+                        std::iter::once(&$($mut)? **base).chain(arguments).collect()
+                    }
+                    ExpressionKind::Negation(operand) => vec![operand],
+                    ExpressionKind::Sum { first, rest } => {
+                        let rest = rest.$iter().map(|t| &$($mut)? t.value);
+                        std::iter::once(&$($mut)? **first).chain(rest).collect()
+                    }
+                    ExpressionKind::Product { first, rest } => {
+                        let rest = rest.$iter().map(|f| &$($mut)? f.value);
+                        std::iter::once(&$($mut)? **first).chain(rest).collect()
+                    }
+                    ExpressionKind::Comparison { left, right, .. } => vec![left, right],
+                    ExpressionKind::Power { base, exponent } => vec![base, exponent],
+                    ExpressionKind::Fold(fold) => vec![&$($mut)? fold.body],
+                }
+            }
+        }
+    };
 }
 
-impl Body {
-    /// The expressions of its fields, in order.
-    pub fn expressions(&self) -> Vec<&Expression> {
-        let inertia: &[Expression] = match self.inertia.as_ref().map(|field| &field.value) {
-            Some(Inertia::Diagonal(entries)) => &entries[..],
-            Some(Inertia::Symmetric(entries)) => &entries[..],
-            Some(Inertia::Missing) | None => &[],
-        };
-        let fields = [&self.mass, &self.center, &self.orientation];
-        fields.into_iter().flatten().map(|field| &field.value).chain(inertia).collect()
-    }
-}
-impl Body {
-    /// The expressions of its fields, in order, to be changed.
-    pub fn expressions_mut(&mut self) -> Vec<&mut Expression> {
-        let inertia: &mut [Expression] = match self.inertia.as_mut().map(|field| &mut field.value) {
-            Some(Inertia::Diagonal(entries)) => &mut entries[..],
-            Some(Inertia::Symmetric(entries)) => &mut entries[..],
-            Some(Inertia::Missing) | None => &mut [],
-        };
-        let fields = [&mut self.mass, &mut self.center, &mut self.orientation];
-        fields.into_iter().flatten().map(|field| &mut field.value).chain(inertia).collect()
-    }
-}
+walk!(declared expressions contacts children iter);
+walk!(declared_mut expressions_mut contacts_mut children_mut iter_mut mut);
 
 impl Expression {
     /// Calls one function with every name of a value in the expression, and another one with every name of a function.
@@ -263,27 +197,5 @@ impl Expression {
             _ => {}
         }
         self.children_mut().into_iter().for_each(|child| child.names_mut(value, function));
-    }
-
-    /// The operands and arguments, to be changed.
-    pub fn children_mut(&mut self) -> Vec<&mut Expression> {
-        match &mut self.kind {
-            ExpressionKind::Missing | ExpressionKind::Number(_) | ExpressionKind::Name(_) => Vec::new(),
-            ExpressionKind::Call { arguments, .. } => arguments.iter_mut().collect(),
-            ExpressionKind::Field { base, .. } => vec![base],
-            ExpressionKind::Method { base, arguments, .. } => {
-                std::iter::once(&mut **base).chain(arguments).collect()
-            }
-            ExpressionKind::Negation(operand) => vec![operand],
-            ExpressionKind::Sum { first, rest } => {
-                std::iter::once(&mut **first).chain(rest.iter_mut().map(|t| &mut t.value)).collect()
-            }
-            ExpressionKind::Product { first, rest } => {
-                std::iter::once(&mut **first).chain(rest.iter_mut().map(|f| &mut f.value)).collect()
-            }
-            ExpressionKind::Power { base, exponent } => vec![base, exponent],
-            ExpressionKind::Comparison { left, right, .. } => vec![left, right],
-            ExpressionKind::Fold(fold) => vec![&mut fold.body],
-        }
     }
 }
