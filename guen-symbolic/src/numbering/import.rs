@@ -1,7 +1,7 @@
 //! Expressions of the graph as numbered ones.
 
 use super::{Num, Numbering, Op};
-use crate::algebra::{ExprId, Function, Node, Rational, Role, Roles};
+use crate::algebra::{ExprId, Function, Node, Rational, Role, Roles, mix};
 use crate::workbench::Workbench;
 use crate::zero::field;
 
@@ -83,9 +83,7 @@ impl Numbering {
                 self.sqrt(x)
             }
             // |x| is x at some points and -x at others: a value that no other expression has.
-            _ if signs && !moves => {
-                self.push(Op::Expr(e), field::mix(e.index() as u64) % field::PRIME, constant)
-            }
+            _ if signs && !moves => self.push(Op::Expr(e), mix(e.index() as u64) % field::PRIME, constant),
             _ => match residue {
                 Some(residue) => match self.arguments(bench, e) {
                     Some(arguments) => self.push(Op::Function(e, arguments), residue, constant),

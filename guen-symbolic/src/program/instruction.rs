@@ -74,11 +74,23 @@ impl Operation {
 impl Operation {
     /// The values that are read, to be changed.
     pub(super) fn operands_mut(&mut self) -> impl Iterator<Item = &mut Value> {
-        let cosine = match *self {
+        let cosine = self.cosine();
+        self.values_mut().filter(move |value| Some(**value) != cosine)
+    }
+
+    /// The operation over other values.
+    pub(super) fn renamed(&self, of: &dyn Fn(&Value) -> Value) -> Self {
+        let mut renamed = self.clone();
+        renamed.values_mut().for_each(|value| *value = of(value));
+        renamed
+    }
+
+    /// The second value that is defined.
+    pub(super) fn cosine(&self) -> Option<Value> {
+        match *self {
             Operation::SinCos { cosine, .. } => Some(cosine),
             _ => None,
-        };
-        self.values_mut().filter(move |value| Some(**value) != cosine)
+        }
     }
 
     /// The values that are read, and the second one that is defined.
@@ -140,6 +152,13 @@ pub struct Instruction {
     pub result: Value,
     /// The operation.
     pub operation: Operation,
+}
+
+impl Instruction {
+    /// The values that the instruction defines.
+    pub fn defined(&self) -> impl Iterator<Item = Value> + use<> {
+        std::iter::once(self.result).chain(self.operation.cosine())
+    }
 }
 
 /// A function of the state over the prepared values.

@@ -248,7 +248,7 @@ impl<'a> Search<'a> {
             if let Some(own) = domain.as_mut().filter(|_| is_partial) {
                 own[place / 64] |= 1 << (place % 64);
             }
-            for value in results(instruction) {
+            for value in instruction.defined() {
                 search.defined[value.index()] = Some(place);
                 search.domains[value.index()] = domain.clone();
             }
@@ -392,7 +392,7 @@ impl<'a> Search<'a> {
         let start = self.defined[value.index()].unwrap_or(0);
         for instruction in &self.code.instructions[start..] {
             if instruction.operation.operands().any(|operand| above[operand.index()]) {
-                results(instruction).for_each(|value| above[value.index()] = true);
+                instruction.defined().for_each(|value| above[value.index()] = true);
             }
         }
         above
@@ -424,15 +424,6 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The values that an instruction defines.
-fn results(instruction: &Instruction) -> impl Iterator<Item = Value> {
-    let cosine = match instruction.operation {
-        Operation::SinCos { cosine, .. } => Some(cosine),
-        _ => None,
-    };
-    core::iter::once(instruction.result).chain(cosine)
-}
-
 /// Whether points show one branch of an operation.
 fn is_branch(operation: &Operation, loads: &Loads) -> bool {
     match operation {
@@ -458,7 +449,7 @@ fn size(value: f64) -> u64 {
 pub(super) fn in_order(instructions: &[Instruction], outputs: &[Value], values: usize) -> Vec<Instruction> {
     let mut defined: Vec<Option<&Instruction>> = vec![None; values];
     for instruction in instructions {
-        results(instruction).for_each(|value| defined[value.index()] = Some(instruction));
+        instruction.defined().for_each(|value| defined[value.index()] = Some(instruction));
     }
     let mut done = vec![false; values];
     let mut ordered = Vec::new();
@@ -466,7 +457,7 @@ pub(super) fn in_order(instructions: &[Instruction], outputs: &[Value], values: 
     while let Some((value, entered)) = stack.pop() {
         let Some(instruction) = defined[value.index()].filter(|_| !done[value.index()]) else { continue };
         if entered {
-            results(instruction).for_each(|value| done[value.index()] = true);
+            instruction.defined().for_each(|value| done[value.index()] = true);
             ordered.push(instruction.clone());
             continue;
         }

@@ -24,14 +24,6 @@ pub(crate) const TURN_ORDER: u64 = 75_600;
 /// positive: so `cos(pi/5)`, `cos(pi/8)` and the roots written for them agree.
 pub(crate) const TURN: Point = Point { cos: 919_336_598_222_743_920, sin: 210_824_192_571_962_334 };
 
-/// The finaliser of the splitmix64 generator (Steele, Lea, Flood 2014): the draws are hashes of what they are for.
-pub(crate) fn mix(value: u64) -> u64 {
-    let mut z = value.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
-}
-
 pub(crate) fn add(a: u64, b: u64) -> u64 {
     let sum = a + b;
     if sum >= PRIME { sum - PRIME } else { sum }

@@ -10,7 +10,9 @@ use super::field::{self, PRIME, add, inverse, mul, neg, sub};
 use super::real::{Real, RealPoint, evaluate_in, exponent};
 use super::sample::Sample;
 use super::table::Table;
-use crate::algebra::{ExprId, FastMap, Flow, Function, Graph, Multivariate, Node, Role, SignBound, SymbolId};
+use crate::algebra::{
+    ExprId, FastMap, Flow, Function, Graph, Multivariate, Node, Role, SignBound, SymbolId, mix,
+};
 use f256::f256;
 
 /// Equations that are solved together; the unit vectors of a frame need three.
@@ -140,7 +142,7 @@ impl Manifold {
     pub(super) fn sample(&self, graph: &Graph, table: &Table, number: u64) -> Option<Sample> {
         let blocks = self.blocks.as_ref()?;
         (0..DRAWS).find_map(|attempt| {
-            let seed = field::mix(field::mix(number ^ 0x6d61_6e69) ^ attempt);
+            let seed = mix(mix(number ^ 0x6d61_6e69) ^ attempt);
             let mut fixed = FastMap::default();
             for block in blocks {
                 block.solve(graph, table, seed, &mut fixed)?;
@@ -325,7 +327,7 @@ impl Block {
                 if self.free.is_empty() {
                     return None;
                 }
-                let other = Sample::new(field::mix(seed ^ attempt));
+                let other = Sample::new(mix(seed ^ attempt));
                 fixed.extend(self.free.iter().map(|s| (*s, other.symbol(graph, *s))));
             }
             for solution in self.solutions(graph, table, seed, fixed) {
@@ -433,7 +435,7 @@ impl Block {
         let root = field::sqrt(sub(mul(b, b), mul(4, mul(a, middle))))?;
         let scale = inverse(add(a, a))?;
         let (plus, minus) = (mul(sub(root, b), scale), mul(neg(add(root, b)), scale));
-        let roots = if field::mix(seed) & 1 == 0 { [plus, minus] } else { [minus, plus] };
+        let roots = if mix(seed) & 1 == 0 { [plus, minus] } else { [minus, plus] };
         Some(roots.into_iter().map(point).collect())
     }
 }

@@ -1,10 +1,9 @@
 //! Points where equations on positions hold, over the reals: from a drawn point by the method of Levenberg and Marquardt with a
 //! damping of `|f|^2`, which converges quadratically where gradients become dependent, too (Yamashita and Fukushima 2001).
 
-use super::field::mix;
 use super::manifold::solve_dense;
 use super::real::{Real, evaluate_in};
-use crate::algebra::{ExprId, FastMap, Flow, Graph, Rational, Role, SignBound, SymbolId};
+use crate::algebra::{ExprId, FastMap, Flow, Graph, Rational, Role, SignBound, SymbolId, mix};
 
 /// Steps of one search.
 const STEPS: usize = 120;

@@ -4,9 +4,8 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use f256::f256;
 
-use super::field::mix;
 use crate::algebra::{
-    ExprId, FastMap, Function, Graph, Multivariate, Node, Rational, Role, SignBound, SymbolId,
+    ExprId, FastMap, Function, Graph, Multivariate, Node, Rational, Role, SignBound, SymbolId, mix,
 };
 
 /// The operations that evaluation needs of a kind of real number.

@@ -1,8 +1,8 @@
 //! A random point modulo the prime, with the values of the nodes that were asked for.
 
-use super::field::{self, PRIME, Point, add, inverse, mix, mul, neg, sub};
+use super::field::{self, PRIME, Point, add, inverse, mul, neg, sub};
 use super::table::{Op, Table};
-use crate::algebra::{ExprId, FastMap, Function, Graph, Multivariate, SignBound, SymbolId};
+use crate::algebra::{ExprId, FastMap, Function, Graph, Multivariate, SignBound, SymbolId, mix};
 
 // What a draw is for: each purpose has its own stream.
 const OF_SYMBOL: u64 = 1;

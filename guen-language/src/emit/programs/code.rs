@@ -46,7 +46,7 @@ pub(super) fn body(
     parts: Parts,
     length: impl Fn(&str) -> usize,
 ) -> String {
-    let values = instructions.iter().flat_map(defined).map(|v| v.index() + 1).max().unwrap_or(0);
+    let values = instructions.iter().flat_map(Instruction::defined).map(|v| v.index() + 1).max().unwrap_or(0);
     let uses = uses(instructions, outputs, values);
     let loaded: Vec<String> = instructions.iter().filter_map(|step| load(step, loads)).collect();
     let unpacked = Unpacked::new(loaded.iter().map(String::as_str), length);
@@ -95,7 +95,7 @@ pub(super) fn body(
             start = end;
             let handed: Vec<String> = block
                 .iter()
-                .flat_map(|step| defined(step))
+                .flat_map(|step| step.defined())
                 .filter(|value| last_use[value.index()] >= end)
                 .map(|value| format!("v{},", value.index()))
                 .collect();
@@ -260,7 +260,7 @@ fn needed(
     let mut values = operands(steps[last]);
     let mut found = Vec::new();
     for place in (first..last).rev() {
-        if defined(steps[place]).any(|value| values.contains(&value)) {
+        if steps[place].defined().any(|value| values.contains(&value)) {
             if place == first || found.len() == ANGLE_STEPS {
                 return None;
             }
@@ -270,15 +270,6 @@ fn needed(
     }
     found.reverse();
     Some(found)
-}
-
-/// The values that an instruction defines.
-fn defined(instruction: &Instruction) -> impl Iterator<Item = Value> {
-    let second = match instruction.operation {
-        Operation::SinCos { cosine, .. } => Some(cosine),
-        _ => None,
-    };
-    core::iter::once(instruction.result).chain(second)
 }
 
 /// The place of a value that an instruction loads, if it is a load.
@@ -309,7 +300,7 @@ impl Writer {
     fn load(&mut self, instruction: &Instruction, loads: &dyn Loads, unpacked: &Unpacked) -> bool {
         let name = load(instruction, loads).map(|name| unpacked.local(name));
         let is_load = name.is_some();
-        for value in defined(instruction) {
+        for value in instruction.defined() {
             self.names[value.index()] = name.clone().unwrap_or_else(|| format!("v{}", value.index()));
         }
         is_load
@@ -366,7 +357,7 @@ impl Writer {
         else {
             return false;
         };
-        if defined(first).any(|value| value == *next) {
+        if first.defined().any(|value| value == *next) {
             return false;
         }
         let _ = write!(

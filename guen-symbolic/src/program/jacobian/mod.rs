@@ -13,7 +13,7 @@ mod partials;
 mod trim;
 
 use super::cost::OperationCount;
-use super::instruction::{FunctionProgram, Programs};
+use super::instruction::{FunctionProgram, Instruction, Programs};
 use crate::algebra::SymbolId;
 use crate::program::thresholds::{LARGEST_DIFFERENTIATED, LARGEST_JACOBIAN, ORDERED_INSTRUCTIONS};
 use eliminate::Order;
@@ -73,7 +73,7 @@ impl Programs {
         let trimmed = trim::instructions(&constants, &self.prepared, self.prepare.len());
         self.prepare_cost = OperationCount::of(&trimmed);
         self.prepare_values =
-            constants.iter().flat_map(trim::defined).map(|v| v.index() + 1).max().unwrap_or(0);
+            constants.iter().flat_map(Instruction::defined).map(|v| v.index() + 1).max().unwrap_or(0);
         self.prepare = trimmed;
         self.functions.push(program);
     }

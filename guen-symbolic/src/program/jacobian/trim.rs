@@ -4,22 +4,13 @@ use crate::algebra::{FastMap, Function};
 use crate::program::cost::OperationCount;
 use crate::program::instruction::{FunctionProgram, Instruction, Operation, Value};
 
-/// The values that an instruction defines.
-pub(super) fn defined(instruction: &Instruction) -> impl Iterator<Item = Value> + use<> {
-    let second = match instruction.operation {
-        Operation::SinCos { cosine, .. } => Some(cosine),
-        _ => None,
-    };
-    std::iter::once(instruction.result).chain(second)
-}
-
 /// Tells for each value whether the outputs depend on it.
 fn used(instructions: &[Instruction], outputs: &[Value]) -> Vec<bool> {
-    let values = instructions.iter().flat_map(defined).map(|v| v.index() + 1).max().unwrap_or(0);
+    let values = instructions.iter().flat_map(Instruction::defined).map(|v| v.index() + 1).max().unwrap_or(0);
     let mut used = vec![false; values];
     outputs.iter().for_each(|v| used[v.index()] = true);
     for instruction in instructions.iter().rev() {
-        if defined(instruction).any(|v| used[v.index()]) {
+        if instruction.defined().any(|v| used[v.index()]) {
             instruction.operation.operands().for_each(|v| used[v.index()] = true);
         }
     }
@@ -39,11 +30,7 @@ pub(super) fn function(name: &str, instructions: &[Instruction], outputs: Vec<Va
     };
     let mut kept = Vec::new();
     for Instruction { result, operation } in instructions {
-        let cosine = match operation {
-            Operation::SinCos { cosine, .. } => Some(*cosine),
-            _ => None,
-        };
-        let (first, second) = (used[result.index()], cosine.is_some_and(|v| used[v.index()]));
+        let (first, second) = (used[result.index()], operation.cosine().is_some_and(|v| used[v.index()]));
         if !first && !second {
             continue;
         }
@@ -62,7 +49,7 @@ pub(super) fn function(name: &str, instructions: &[Instruction], outputs: Vec<Va
                 }
             }
             other => {
-                let operation = renamed(other, &of);
+                let operation = other.renamed(&of);
                 (fresh(&mut numbers, *result), operation)
             }
         };
@@ -71,25 +58,6 @@ pub(super) fn function(name: &str, instructions: &[Instruction], outputs: Vec<Va
     let outputs = outputs.iter().map(|v| numbers[v]).collect();
     let cost = OperationCount::of(&kept);
     FunctionProgram { name: name.to_owned(), instructions: kept, outputs, values: values as usize, cost }
-}
-
-/// The operation over other values.
-fn renamed(operation: &Operation, of: &impl Fn(&Value) -> Value) -> Operation {
-    match operation {
-        Operation::Add(a, b) => Operation::Add(of(a), of(b)),
-        Operation::Sub(a, b) => Operation::Sub(of(a), of(b)),
-        Operation::Neg(a) => Operation::Neg(of(a)),
-        Operation::Mul(a, b) => Operation::Mul(of(a), of(b)),
-        Operation::Div(a, b) => Operation::Div(of(a), of(b)),
-        Operation::Call(function, a) => Operation::Call(*function, of(a)),
-        Operation::Apply(function, arguments) => {
-            Operation::Apply(*function, arguments.iter().map(of).collect())
-        }
-        Operation::SinCos { angle, cosine } => Operation::SinCos { angle: of(angle), cosine: of(cosine) },
-        load @ (Operation::Number(_) | Operation::Pi | Operation::Symbol(_) | Operation::Prepared(_)) => {
-            load.clone()
-        }
-    }
 }
 
 /// Lets a function load from the list of prepared values, which grows by those that are new and needed.
@@ -113,7 +81,7 @@ pub(super) fn instructions(all: &[Instruction], outputs: &[Value], keep: usize) 
     let used = used(all, outputs);
     all.iter()
         .enumerate()
-        .filter(|(place, instruction)| *place < keep || defined(instruction).any(|v| used[v.index()]))
+        .filter(|(place, instruction)| *place < keep || instruction.defined().any(|v| used[v.index()]))
         .map(|(_, instruction)| instruction.clone())
         .collect()
 }

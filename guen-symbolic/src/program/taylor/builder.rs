@@ -492,7 +492,7 @@ impl Builder {
         let mut kept = Vec::new();
         for (old, step) in steps.iter().enumerate().filter(|(i, _)| live[*i]) {
             kept.push(match step {
-                SeriesStep::Still(operation) => SeriesStep::Still(renamed(operation, &at)),
+                SeriesStep::Still(operation) => SeriesStep::Still(operation.renamed(&at)),
                 SeriesStep::Time => SeriesStep::Time,
                 SeriesStep::Input(i) => SeriesStep::Input(*i),
                 SeriesStep::Variable(i) => SeriesStep::Variable(match i.checked_sub(states) {
@@ -523,26 +523,5 @@ impl Builder {
             steps: kept,
             sums,
         }
-    }
-}
-
-/// An operation on renamed values.
-fn renamed(operation: &Operation, at: &dyn Fn(&Value) -> Value) -> Operation {
-    match operation {
-        Operation::Add(a, b) => Operation::Add(at(a), at(b)),
-        Operation::Sub(a, b) => Operation::Sub(at(a), at(b)),
-        Operation::Neg(a) => Operation::Neg(at(a)),
-        Operation::Mul(a, b) => Operation::Mul(at(a), at(b)),
-        Operation::Div(a, b) => Operation::Div(at(a), at(b)),
-        Operation::Call(function, a) => Operation::Call(*function, at(a)),
-        Operation::Apply(function, arguments) => {
-            Operation::Apply(*function, arguments.iter().map(at).collect())
-        }
-        // Sines and cosines of still angles became two calls.
-        Operation::SinCos { .. }
-        | Operation::Number(_)
-        | Operation::Pi
-        | Operation::Symbol(_)
-        | Operation::Prepared(_) => operation.clone(),
     }
 }
