@@ -136,13 +136,7 @@ impl Faults {
     /// Names the instance in the faults that were reported since, which are mistakes in its component. Of one mistake that several
     /// instances show the first stays.
     pub fn of_instance(&mut self, before: usize, what: &str, place: Span) {
-        let at = |fault: &Fault| format!("{:?}", fault.span);
-        let known: BTreeSet<String> = self.faults[..before].iter().map(at).collect();
-        let mut index = 0;
-        self.faults.retain(|fault| {
-            index += 1;
-            index <= before || !known.contains(&at(fault))
-        });
+        self.keep_since(before, |_| true);
         self.note_since(before, what, place);
     }
 

@@ -6,7 +6,7 @@ use super::attributes::docs;
 use super::cursor::Cursor;
 use super::expression::expression;
 use super::index::indexed_name;
-use super::lists::listed;
+use super::lists::{limits_behind, listed};
 use super::nesting::Entries;
 use super::punctuation::equals;
 use super::units::unit;
@@ -80,18 +80,7 @@ fn limits(
     if constant.bound.is_some() {
         return Err(faults.report(Fault::new(span, "a constant has one bound")));
     }
-    let lower = expression(cursor, faults)?;
-    if !cursor.is_pair('.', '.') {
-        let fault = Fault::new(cursor.span(), format!("expected `..`, found {}", cursor.found()));
-        return Err(faults.report(fault.help("limits are written `name in lower..upper`")));
-    }
-    cursor.skip(2);
-    if let Some(span) = cursor.eat('=') {
-        let fault = Fault::new(span, "limits are written with `..`");
-        faults
-            .report(fault.help("both ends belong to what the constant may be: write `name in lower..upper`"));
-    }
-    Ok(Some(Box::new([lower, expression(cursor, faults)?])))
+    limits_behind(cursor, faults, "constant").map(Some)
 }
 
 fn is_comparison(cursor: &Cursor) -> bool {

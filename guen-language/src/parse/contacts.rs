@@ -9,6 +9,7 @@ use super::index::indexed_name;
 use super::lists::{entries, expression_to_semicolon, separated};
 use super::nesting::Entries;
 use super::punctuation::{begins_equation, colon, equals, semicolon};
+use super::resets::ends;
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::MAX_ENTRIES;
 use crate::names::{nearest, quoted};
@@ -32,10 +33,6 @@ pub(crate) fn contacts(group: &Group, faults: &mut Faults) -> Entries<Contact> {
         semicolon(cursor, faults, begins_equation);
         Ok(Contact { docs, clauses: once(clauses, &name, faults), name })
     })
-}
-
-fn ends(cursor: &Cursor) -> bool {
-    cursor.is_end() || cursor.is_punct(';') || begins_equation(cursor)
 }
 
 fn begins_clause(cursor: &Cursor) -> bool {

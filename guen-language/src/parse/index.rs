@@ -252,34 +252,32 @@ pub(crate) fn index(cursor: &mut Cursor, faults: &mut Faults) -> Parsed {
 }
 
 fn sum(cursor: &mut Cursor, faults: &mut Faults, budget: &mut Budget) -> Parsed {
-    let mut left = product(cursor, faults, budget)?;
-    loop {
-        let operator = match cursor.peek() {
-            Some(TokenTree::Punct(mark)) if mark.as_char() == '+' => IndexOperator::Plus,
-            Some(TokenTree::Punct(mark)) if mark.as_char() == '-' => IndexOperator::Minus,
-            _ => return Ok(left),
-        };
-        let span = cursor.span();
-        budget.spend(span, faults)?;
-        cursor.skip(1);
-        left = operation(left, operator, span, product(cursor, faults, budget)?);
-    }
+    let operators = [('+', IndexOperator::Plus), ('-', IndexOperator::Minus)];
+    operations(cursor, faults, budget, &operators, product)
 }
 
 fn product(cursor: &mut Cursor, faults: &mut Faults, budget: &mut Budget) -> Parsed {
-    let mut left = unary(cursor, faults, budget)?;
-    loop {
-        let operator = match cursor.peek() {
-            Some(TokenTree::Punct(mark)) if mark.as_char() == '*' => IndexOperator::Times,
-            Some(TokenTree::Punct(mark)) if mark.as_char() == '/' => IndexOperator::Over,
-            Some(TokenTree::Punct(mark)) if mark.as_char() == '%' => IndexOperator::Remainder,
-            _ => return Ok(left),
-        };
+    let operators =
+        [('*', IndexOperator::Times), ('/', IndexOperator::Over), ('%', IndexOperator::Remainder)];
+    operations(cursor, faults, budget, &operators, unary)
+}
+
+/// Operands with operators of one rank between them, from left to right.
+fn operations(
+    cursor: &mut Cursor,
+    faults: &mut Faults,
+    budget: &mut Budget,
+    operators: &[(char, IndexOperator)],
+    operand: fn(&mut Cursor, &mut Faults, &mut Budget) -> Parsed,
+) -> Parsed {
+    let mut left = operand(cursor, faults, budget)?;
+    while let Some((_, operator)) = operators.iter().find(|(mark, _)| cursor.is_punct(*mark)) {
         let span = cursor.span();
         budget.spend(span, faults)?;
         cursor.skip(1);
-        left = operation(left, operator, span, unary(cursor, faults, budget)?);
+        left = operation(left, *operator, span, operand(cursor, faults, budget)?);
     }
+    Ok(left)
 }
 
 fn operation(

@@ -222,31 +222,37 @@ pub(crate) fn own_unit(cursor: &mut Cursor, faults: &mut Faults, role: &str) -> 
 /// `in lower..upper` after the name of an input.
 fn limits(cursor: &mut Cursor, faults: &mut Faults, role: &str) -> Option<Box<[Expression; 2]>> {
     let span = cursor.eat_word("in")?;
-    let mut read = || -> Result<[Expression; 2], Reported> {
-        if role != INPUT {
-            return Err(faults.report(Fault::new(span, "only `inputs` have limits")));
-        }
-        let lower = expression(cursor, faults)?;
-        if !cursor.is_pair('.', '.') {
-            let fault = Fault::new(cursor.span(), format!("expected `..`, found {}", cursor.found()));
-            return Err(faults.report(fault.help("limits are written `name in lower..upper`")));
-        }
-        cursor.skip(2);
-        if let Some(span) = cursor.eat('=') {
-            let fault = Fault::new(span, "limits are written with `..`");
-            faults.report(
-                fault.help("both ends belong to what the input may be: write `name in lower..upper`"),
-            );
-        }
-        Ok([lower, expression(cursor, faults)?])
+    let limits = match role {
+        INPUT => limits_behind(cursor, faults, "input"),
+        _ => Err(faults.report(Fault::new(span, "only `inputs` have limits"))),
     };
-    match read() {
-        Ok(limits) => Some(Box::new(limits)),
-        Err(Reported { .. }) => {
-            cursor.recover_to_comma();
-            None
-        }
+    if limits.is_err() {
+        cursor.recover_to_comma();
     }
+    limits.ok()
+}
+
+/// `lower..upper` behind `in`, of a constant or an input.
+pub(super) fn limits_behind(
+    cursor: &mut Cursor,
+    faults: &mut Faults,
+    what: &str,
+) -> Result<Box<[Expression; 2]>, Reported> {
+    let lower = expression(cursor, faults)?;
+    if !cursor.is_pair('.', '.') {
+        let fault = Fault::new(cursor.span(), format!("expected `..`, found {}", cursor.found()));
+        return Err(faults.report(fault.help("limits are written `name in lower..upper`")));
+    }
+    cursor.skip(2);
+    if let Some(span) = cursor.eat('=') {
+        let fault = Fault::new(span, "limits are written with `..`");
+        faults.report(
+            fault.help(format_args!(
+                "both ends belong to what the {what} may be: write `name in lower..upper`"
+            )),
+        );
+    }
+    Ok(Box::new([lower, expression(cursor, faults)?]))
 }
 
 /// Whether what follows a name belongs to the list or to the next entry.

@@ -89,7 +89,8 @@ fn assignment(cursor: &mut Cursor, faults: &mut Faults) -> Result<ResetAssignmen
     Ok(ResetAssignment { variable, equals, value })
 }
 
-fn ends(cursor: &Cursor) -> bool {
+/// Whether an entry of equations ends here.
+pub(super) fn ends(cursor: &Cursor) -> bool {
     cursor.is_end() || cursor.is_punct(';') || begins_equation(cursor)
 }
 

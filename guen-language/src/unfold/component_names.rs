@@ -71,11 +71,13 @@ pub(crate) struct OwnNames<'a> {
     functions: BTreeSet<&'a str>,
 }
 
+/// The names that an item declares.
+pub(super) fn texts(item: &Item) -> impl Iterator<Item = &str> {
+    item.declared().into_iter().map(|name| name.text.as_str())
+}
+
 impl<'a> OwnNames<'a> {
     pub(crate) fn new(component: &'a Component) -> Self {
-        fn texts(item: &Item) -> impl Iterator<Item = &str> {
-            item.declared().into_iter().map(|name| name.text.as_str())
-        }
         let arguments = component.arguments.iter().map(|argument| argument.name.text.as_str());
         let coordinates = component.items.iter().filter(|item| matches!(item, Item::Coordinates(_)));
         let forms = component

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use super::component_names::loop_variables;
+use super::component_names::{loop_variables, texts};
 use crate::diagnostics::{Fault, Faults};
 use crate::names::{RATE_SUFFIX, is_function, is_reserved, nearest};
 use crate::syntax::{Declaration, Expression, ExpressionKind, Index, Item, Name};
@@ -38,10 +38,6 @@ pub(crate) fn report(unknown: Vec<Fault>, faults: &mut Faults) {
             faults.report(fault);
         }
     }
-}
-
-fn texts(item: &Item) -> impl Iterator<Item = &str> {
-    item.declared().into_iter().map(|name| name.text.as_str())
 }
 
 struct Search<'a> {
