@@ -4,7 +4,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::numbers::lift::Lift;
 use crate::numbers::real::Real;
-use crate::numbers::rules::assign_operators;
+use crate::numbers::rules::{assign_operators, by_slopes};
 
 /// A value beside a bound of its error, in units of the unit roundoff `u`, half of [`epsilon`](Real::epsilon).
 ///
@@ -162,6 +162,7 @@ mod own {
     pub(super) const ANGLE: i64 = 5;
     pub(super) const INVERSE: i64 = 4;
     pub(super) const HYPERBOLIC: i64 = 5;
+    pub(super) const SQUARE_ROOT: i64 = 1;
     pub(super) const ROOT: i64 = 3;
 }
 
@@ -258,82 +259,7 @@ impl<R: Real> Real for RunningError<R> {
         R::vectorize(function)
     }
 
-    // sin' = cos, cos' = -sin
-    #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        let (sin, cos) = self.value.sin_cos();
-        (self.chain(sin, cos, own::SINE), self.chain(cos, sin, own::SINE))
-    }
-
-    // asin' = 1 / sqrt(1 - u^2)
-    #[inline(always)]
-    fn asin(self) -> Self {
-        let u = self.value;
-        let slope = ((R::one() - u) * (R::one() + u)).sqrt().recip();
-        self.chain(u.asin(), slope, own::INVERSE)
-    }
-
-    // acos' = -1 / sqrt(1 - u^2)
-    #[inline(always)]
-    fn acos(self) -> Self {
-        let u = self.value;
-        let slope = ((R::one() - u) * (R::one() + u)).sqrt().recip();
-        self.chain(u.acos(), slope, own::INVERSE)
-    }
-
-    // atan' = 1 / (1 + u^2)
-    #[inline(always)]
-    fn atan(self) -> Self {
-        let u = self.value;
-        self.chain(u.atan(), (R::one() + u * u).recip(), own::ARC_TANGENT)
-    }
-
-    // sinh' = cosh
-    #[inline(always)]
-    fn sinh(self) -> Self {
-        self.chain(self.value.sinh(), self.value.cosh(), own::HYPERBOLIC)
-    }
-
-    // cosh' = sinh
-    #[inline(always)]
-    fn cosh(self) -> Self {
-        self.chain(self.value.cosh(), self.value.sinh(), own::HYPERBOLIC)
-    }
-
-    // tanh' = 1 / cosh^2
-    #[inline(always)]
-    fn tanh(self) -> Self {
-        let sech = self.value.cosh().recip();
-        self.chain(self.value.tanh(), sech * sech, own::HYPERBOLIC)
-    }
-
-    // exp' = exp
-    #[inline(always)]
-    fn exp(self) -> Self {
-        let exp = self.value.exp();
-        self.chain(exp, exp, own::EXPONENTIAL)
-    }
-
-    // ln' = 1 / u
-    #[inline(always)]
-    fn ln(self) -> Self {
-        self.chain(self.value.ln(), self.value.recip(), own::EXPONENTIAL)
-    }
-
-    // sqrt' = 1 / (2 sqrt)
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        let root = self.value.sqrt();
-        self.chain(root, (root + root).recip(), 1)
-    }
-
-    // root_q' = 1 / (q root_q^(q - 1))
-    #[inline(always)]
-    fn root(self, q: u32) -> Self {
-        let root = self.value.root(q);
-        let power = root.powi(i32::try_from(i64::from(q) - 1).unwrap_or(i32::MAX));
-        self.chain(root, (R::from_ratio(i64::from(q), 1) * power).recip(), own::ROOT)
-    }
+    by_slopes!(inline(always), own);
 
     // d atan2(y, x) = (x dy - y dx) / (x^2 + y^2)
     #[inline]
