@@ -3,7 +3,7 @@
 use core::error::Error;
 use core::fmt;
 
-use crate::linear_algebra::dense::{largest, product, unit};
+use crate::linear_algebra::dense::{largest, plus, product, unit};
 use crate::numbers::dual::Dual;
 use crate::numbers::lift::Lift;
 use crate::numbers::real::{Ordered, Real};
@@ -115,11 +115,11 @@ impl<R: Ordered, const N: usize, const M: usize> ZeroOrderHold<R, N, M> {
         for _ in 0..doublings {
             if is_stiff {
                 let further = product(&change, &psi);
-                psi = sum(&sum(&psi, &psi), &further);
+                psi = plus(&plus(&psi, &psi), &further);
                 let square = product(&change, &change);
-                change = sum(&sum(&change, &change), &square);
+                change = plus(&plus(&change, &change), &square);
             } else {
-                psi = sum(&psi, &product(&phi, &psi));
+                psi = plus(&psi, &product(&phi, &psi));
                 phi = product(&phi, &phi);
             }
         }
@@ -135,11 +135,6 @@ impl<R: Ordered, const N: usize, const M: usize> ZeroOrderHold<R, N, M> {
             Err(DiscreteError::NotFinite)
         }
     }
-}
-
-/// A sum of matrices.
-fn sum<R: Real, const N: usize>(a: &[[R; N]; N], b: &[[R; N]; N]) -> [[R; N]; N] {
-    core::array::from_fn(|i| core::array::from_fn(|j| a[i][j] + b[i][j]))
 }
 
 /// A matrix with the unit matrix added.

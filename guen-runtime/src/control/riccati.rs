@@ -10,7 +10,7 @@ use core::cmp::Ordering;
 use core::error::Error;
 use core::fmt;
 
-use crate::linear_algebra::dense::{apply, largest, product, solve, transpose, unit};
+use crate::linear_algebra::dense::{apply, largest, plus, product, solve, transpose, unit};
 use crate::numbers::real::Ordered;
 use crate::system::derivatives::linearization::Linearization;
 
@@ -522,10 +522,6 @@ fn is_definite<R: Ordered, const N: usize>(m: &[[R; N]; N]) -> bool {
 
 fn symmetric<R: Ordered, const N: usize>(m: &[[R; N]; N]) -> [[R; N]; N] {
     core::array::from_fn(|i| core::array::from_fn(|j| (m[i][j] + m[j][i]) * R::from_ratio(1, 2)))
-}
-
-fn plus<R: Ordered, const N: usize, const M: usize>(a: &[[R; M]; N], b: &[[R; M]; N]) -> [[R; M]; N] {
-    core::array::from_fn(|i| core::array::from_fn(|j| a[i][j] + b[i][j]))
 }
 
 fn minus<R: Ordered, const N: usize, const M: usize>(a: &[[R; M]; N], b: &[[R; M]; N]) -> [[R; M]; N] {

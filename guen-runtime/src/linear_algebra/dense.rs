@@ -20,6 +20,11 @@ pub(crate) fn product<R: Real, const N: usize, const K: usize, const M: usize>(
     core::array::from_fn(|i| core::array::from_fn(|j| (0..K).fold(R::zero(), |s, k| s + a[i][k] * b[k][j])))
 }
 
+/// `A + B`.
+pub(crate) fn plus<R: Real, const N: usize, const M: usize>(a: &[[R; M]; N], b: &[[R; M]; N]) -> [[R; M]; N] {
+    core::array::from_fn(|i| core::array::from_fn(|j| a[i][j] + b[i][j]))
+}
+
 /// The transpose: columns as rows.
 pub(crate) fn transpose<R: Real, const N: usize, const M: usize>(a: &[[R; M]; N]) -> [[R; N]; M] {
     core::array::from_fn(|j| core::array::from_fn(|i| a[i][j]))

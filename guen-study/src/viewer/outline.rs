@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::page::Space;
 use super::shape::{Kind, Pose, difference};
-use super::track::{Shown, Track, Turning, bounds};
+use super::track::{Shown, Track, Turning, between, bounds};
 use super::turn::{Turn, norm};
 use super::{Ground, LinkKind, Shape, Viewer};
 use crate::plot;
@@ -103,10 +103,6 @@ fn locate(times: &[f64], time: f64) -> (usize, f64) {
     let k = times.partition_point(|t| *t <= time).clamp(1, last.max(1)) - 1;
     let Some(next) = times.get(k + 1) else { return (k, 0.0) };
     (k, ((time - times[k]) / (next - times[k])).clamp(0.0, 1.0))
-}
-
-fn between(a: [f64; 3], b: [f64; 3], part: f64) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] + (b[i] - a[i]) * part)
 }
 
 /// Shapes larger than this part of the motion are drawn first: others move on or before them.

@@ -59,7 +59,8 @@ fn worst_between<T: Copy>(
     (worst.0, worst.1.sqrt())
 }
 
-fn between(a: [f64; 3], b: [f64; 3], part: f64) -> [f64; 3] {
+/// A point on the way from one to another.
+pub(super) fn between(a: [f64; 3], b: [f64; 3], part: f64) -> [f64; 3] {
     std::array::from_fn(|i| a[i] + (b[i] - a[i]) * part)
 }
 

@@ -20,32 +20,28 @@ impl Grid {
 
     /// Adds an axis of `count` values at equal distances, both ends included.
     pub fn linear(self, name: impl Into<String>, low: f64, high: f64, count: usize) -> Self {
-        let step = |k: usize| between(low, high, k as f64 / (count - 1) as f64);
-        let values = (0..count).map(|k| {
-            if k == 0 {
-                low
-            } else if k + 1 == count {
-                high
-            } else {
-                step(k)
-            }
-        });
-        self.values(name, values.collect::<Vec<f64>>())
+        self.spaced(name, (low, high), count, between)
     }
 
     /// Adds an axis of `count` values with equal quotients, both ends included, which have to be positive.
     pub fn logarithmic(self, name: impl Into<String>, low: f64, high: f64, count: usize) -> Self {
-        let step = |k: usize| between_quotients(low, high, k as f64 / (count - 1) as f64);
-        let values = (0..count).map(|k| {
-            if k == 0 {
-                low
-            } else if k + 1 == count {
-                high
-            } else {
-                step(k)
-            }
+        self.spaced(name, (low, high), count, between_quotients)
+    }
+
+    /// Adds an axis of `count` values: its ends, and what is so far between them.
+    fn spaced(
+        self,
+        name: impl Into<String>,
+        (low, high): (f64, f64),
+        count: usize,
+        at: fn(f64, f64, f64) -> f64,
+    ) -> Self {
+        let values = (0..count).map(|k| match k {
+            0 => low,
+            k if k + 1 == count => high,
+            k => at(low, high, k as f64 / (count - 1) as f64),
         });
-        self.values(name, values.collect::<Vec<f64>>())
+        self.values(name, values)
     }
 
     /// The design of these axes.
