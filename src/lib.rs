@@ -220,9 +220,9 @@ pub mod __private {
         nalgebra_conversions, seeded, select,
     };
     pub use guen_runtime::{
-        actuated, condition, contact_mode, contact_states, differentiable, domain, dynamics, energy, facts,
-        guard_answers, guarded, held_through_modes, instance_mode, jacobians, laned, level_info, levels,
-        linearizable, mass_form, momenta, monitored, motion_of_system, onto_constraints, operators,
+        actuated, condition, contact_mode, contact_states, copied, differentiable, domain, dynamics, energy,
+        facts, guard_answers, guarded, held_through_modes, instance_mode, jacobians, laned, level_info,
+        levels, linearizable, mass_form, momenta, monitored, motion_of_system, onto_constraints, operators,
         output_map, prepare, prepared, program, program_functions, rates, reaction_covector, reactions,
         record, reduce, reported, restored_by_modes, simulated, simulated_through_modes, source, sourced,
         state_of_system, steady_motions, structured, switches, uses, with_scalar,

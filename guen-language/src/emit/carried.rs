@@ -139,14 +139,13 @@ fn prepared(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, invariant
         #given
         /// A prepared system with the elementary functions of its rates as states, listed in [`FUNCTIONS`]: its
         /// right-hand side calls none. Immutable; made by `carried` of the prepared system.
-        #[::core::prelude::v1::derive(
-            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
-        )]
+        #[::core::prelude::v1::derive(::core::fmt::Debug)]
         pub struct Prepared<R = f64> {
             system: super::Prepared<R>,
             constants: [R; #constants],
             hoisted: [R; #hoisted],
         }
+        __guen::copied!(R Prepared, system constants hoisted);
 
         #[inline]
         pub(super) fn of<R: __guen::Real>(system: super::Prepared<R>) -> Prepared<R> {

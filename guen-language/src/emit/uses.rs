@@ -1,10 +1,10 @@
-//! A function that is never called, in which every use of a name refers to a static at the name's declaration: an
+//! A function that is never called, in which every use of a name refers to a parameter at the name's declaration: an
 //! editor leads from a coordinate in an expression to where it was declared. What is never used is a local variable
 //! there, so that the compiler's own lint `unused_variables` says so at its place.
 //!
-//! Statics and not locals, because locals that come through `macro_rules!` are told apart by where they come from,
-//! and the names of the language are not; statics and not constants, because the compiler suggests constants with
-//! similar names when a variable is unused.
+//! Parameters that are constants and not locals, because locals that come through `macro_rules!` are told apart by where they come from,
+//! and the names of the language are not; not constants, because the compiler suggests constants with similar names when a variable is
+//! unused; not statics, each of which has a body to check; not variants, which are types to the compiler's messages.
 
 use proc_macro2::TokenStream;
 use quote::quote;

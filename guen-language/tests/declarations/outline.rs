@@ -44,13 +44,14 @@ fn is_value(head: &[TokenTree]) -> bool {
 }
 
 /// Macros of the runtime that take what was derived beside sizes and names.
-const OF_DERIVATION: [&str; 10] = [
+const OF_DERIVATION: [&str; 11] = [
     "facts",
     "reported",
     "operators",
     "reduce",
     "domain",
     "dynamics",
+    "motion_of_system",
     "prepare",
     "prepared",
     "program",

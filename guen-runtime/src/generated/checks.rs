@@ -41,7 +41,7 @@ pub const fn plain<const N: usize>(mut fields: [&'static str; N]) -> [&'static s
 /// struct Point([f64; 2]);
 /// impl fmt::Debug for Point {
 ///     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-///         show(f, "Point", &["x", "y"], &self.0)
+///         show(f, "Point", &["x", "y"], &self.0.each_ref())
 ///     }
 /// }
 /// assert_eq!(format!("{:?}", Point([1.0, 2.5])), "Point { x: 1.0, y: 2.5 }");
@@ -54,7 +54,7 @@ pub fn show<R: fmt::Debug>(
     f: &mut fmt::Formatter<'_>,
     name: &str,
     fields: &[&str],
-    values: &[R],
+    values: &[&R],
 ) -> fmt::Result {
     let mut all = f.debug_struct(name);
     for (field, value) in fields.iter().zip(values) {
@@ -67,11 +67,12 @@ pub fn show<R: fmt::Debug>(
 ///
 /// ```
 /// use guen_runtime::checks::equal;
-/// assert!(equal(&[1.0, 2.0], &[1.0, 2.0]));
-/// assert!(!equal(&[1.0, f64::NAN], &[1.0, f64::NAN]));
+/// assert!(equal([&1.0, &2.0], [&1.0, &2.0]));
+/// assert!(!equal([&1.0, &f64::NAN], [&1.0, &f64::NAN]));
 /// ```
+// References in the type, so that the compiler need not look for `PartialEq` of references in each expansion.
 #[inline]
-pub fn equal<R: PartialEq, const N: usize>(a: &[R; N], b: &[R; N]) -> bool {
+pub fn equal<R: PartialEq, const N: usize>(a: [&R; N], b: [&R; N]) -> bool {
     a == b
 }
 

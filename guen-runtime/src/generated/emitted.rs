@@ -103,21 +103,54 @@ macro_rules! program_function {
     };
 }
 
+/// `Clone` and `Copy` of a struct over reals that are `Copy`, as all are, by the name of its parameter: what the compiler would derive clones field by field. With fields
+/// behind a comma `PartialEq` too: what the compiler would derive makes it read the implementations of one trait more.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! copied {
+    ($([$($F:ident $N:literal)*])? $R:ident $Name:ident) => {
+        #[automatically_derived]
+        impl<$R: ::core::marker::Copy $($(, $F: ::core::marker::Copy)*)?> ::core::clone::Clone for $Name<$R $($(, $F)*)?> {
+            #[inline]
+            fn clone(&self) -> Self {
+                *self
+            }
+        }
+
+        impl<$R: ::core::marker::Copy $($(, $F: ::core::marker::Copy)*)?> ::core::marker::Copy for $Name<$R $($(, $F)*)?> {}
+    };
+    ($([$($F:ident $N:literal)*])? $R:ident $Name:ident, $($field:ident)*) => {
+        $crate::copied!($([$($F $N)*])? $R $Name);
+
+        impl<$R: ::core::cmp::PartialEq $($(, $F: ::core::cmp::PartialEq)*)?> ::core::cmp::PartialEq for $Name<$R $($(, $F)*)?> {
+            #[inline]
+            fn eq(&self, other: &Self) -> bool {
+                let _ = other;
+                true $(&& self.$field == other.$field)*
+            }
+        }
+    };
+}
+
 /// A struct of reals with conversions from and to an array, and the names of its fields: each field with its documentation
-/// and the name of a local variable.
+/// and the name of a local variable; before them `[raw]` where a field is a raw identifier.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! record {
-    ($(#[$($docs:tt)*])* $Record:ident $n:literal $($(#[$($doc:tt)*])* $field:ident $local:ident,)*) => {
+    (@ [] $names:expr) => { $names };
+    (@ [raw] $names:expr) => { $crate::checks::plain($names) };
+    ($(#[$($docs:tt)*])* $Record:ident $n:literal $([$raw:ident])? $($(#[$($doc:tt)*])* $field:ident $local:ident,)*) => {
         $(#[$($docs)*])*
-        #[::core::prelude::v1::derive(::core::clone::Clone, ::core::marker::Copy, ::core::default::Default)]
+        #[::core::prelude::v1::derive(::core::default::Default)]
         pub struct $Record<R = f64> {
             $($(#[$($doc)*])* pub $field: R,)*
         }
 
+        $crate::copied!(R $Record);
+
         impl $Record<f64> {
             /// The names of the fields, in order.
-            pub const NAMES: [&'static str; $n] = $crate::checks::plain([$(::core::stringify!($field)),*]);
+            pub const NAMES: [&'static str; $n] = $crate::record!(@ [$($raw)?] [$(::core::stringify!($field)),*]);
         }
 
         impl<R> $Record<R> {
@@ -125,20 +158,24 @@ macro_rules! record {
             fn __guen_array(self) -> [R; $n] {
                 [$(self.$field),*]
             }
+
+            #[inline]
+            fn __guen_each(&self) -> [&R; $n] {
+                [$(&self.$field),*]
+            }
         }
 
         // By way of an array: the compiler has less to check than in what it would derive.
         impl<R: ::core::fmt::Debug> ::core::fmt::Debug for $Record<R> {
             fn fmt(&self, f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
-                let values = [$(&self.$field),*];
-                $crate::checks::show(f, ::core::stringify!($Record), &$Record::<f64>::NAMES, &values)
+                $crate::checks::show(f, ::core::stringify!($Record), &$Record::<f64>::NAMES, &self.__guen_each())
             }
         }
 
         impl<R: ::core::cmp::PartialEq> ::core::cmp::PartialEq for $Record<R> {
             #[inline]
             fn eq(&self, other: &Self) -> bool {
-                $crate::checks::equal(&[$(&self.$field),*], &[$(&other.$field),*])
+                $crate::checks::equal(self.__guen_each(), other.__guen_each())
             }
         }
 
@@ -295,7 +332,7 @@ macro_rules! values_of_brackets {
 mod tests {
     record! {
         /// A point.
-        Point 2
+        Point 2 [raw]
         /// To the right.
         x a,
         /// Upwards.

@@ -12,8 +12,9 @@ use crate::model::Model;
 use crate::syntax::{Name, Step};
 
 /// The macros of the runtime that name a type with parameters.
-const MACROS: [&str; 14] = [
+const MACROS: [&str; 15] = [
     "actuated",
+    "copied",
     "differentiable",
     "held_through_modes",
     "linearizable",

@@ -1,10 +1,11 @@
 //! Methods of a prepared system: rates, energies, momenta, reactions, residuals, linearisation.
 
+use guen_symbolic::{Instruction, Operation};
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::integrated;
-use crate::derive::{Subject, function};
+use crate::derive::{DerivedLevel, Subject, function};
 use crate::emit::layouts::layout::{Layout, given, given_alone, inputs};
 use crate::emit::layouts::signatures;
 use crate::model::FormKind;
@@ -35,7 +36,16 @@ fn whole(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let Layout { n, l, size, .. } = layout;
     let given = given(layout);
     let momenta = (!subject.level.selection.momenta.is_empty()).then(|| quote!(__guen::momenta!();));
-    quote!(__guen::motion_of_system!(#n, #l, #size #given); #momenta)
+    let power = has_power(subject.level).then(|| quote!(power));
+    quote!(__guen::motion_of_system!([#power], #n, #l, #size #given); #momenta)
+}
+
+/// Whether the energy changes along a motion as far as its program tells; if not, `power` returns zero and has no function.
+pub(in crate::emit) fn has_power(level: &DerivedLevel) -> bool {
+    level.program(function::POWER).is_some_and(|power| match &power.instructions[..] {
+        [Instruction { operation: Operation::Number(value), .. }] => !value.is_zero(),
+        _ => true,
+    })
 }
 
 /// Energy, reactions and outputs: what a scene has if it provides them.

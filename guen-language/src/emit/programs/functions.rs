@@ -10,6 +10,7 @@ use super::unpacked::indexed;
 use crate::derive::{DerivedLevel, Subject, function};
 use crate::emit::layouts::layout::Layout;
 use crate::emit::layouts::text::tokens;
+use crate::emit::methods::motion::has_power;
 
 /// The places of the values of symbols, in the arrays that a function takes.
 pub(super) struct Places {
@@ -197,7 +198,11 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
         let _ = write!(text, " {kind} {length}");
     }
     text.push(';');
+    let has_power = has_power(subject.level);
     for (program, rolled) in programs.functions.iter().zip(rolled) {
+        if program.name == function::POWER && !has_power {
+            continue;
+        }
         let signature = signature(&program.name);
         let places = if signature == Signature::Everywhere { &everywhere } else { &places };
         let given = match signature {

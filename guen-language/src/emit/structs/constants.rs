@@ -100,6 +100,7 @@ pub(in crate::emit) fn items(
             quote!(#docs #range pub #ident: #kind,)
         })
         .collect();
+    let compared = structure.trees().map(|(ident, _)| ident);
     let written = subject.scene().map_or(&subject.model.declaration.docs, |(scene, _)| &scene.docs);
     let (count, hoisted) = (layout.constants, layout.hoisted);
     let checks = checks(subject, &fields, &structure);
@@ -117,13 +118,12 @@ pub(in crate::emit) fn items(
     });
     let supplied_kinds = supplied.declared();
     let item = quote! {
-        #[::core::prelude::v1::derive(
-            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
-        )]
+        #[::core::prelude::v1::derive(::core::fmt::Debug)]
         pub struct #declared<#real = f64 #supplied_kinds> {
             #(#declared_fields)*
             #marker
         }
+        __guen::copied!(#real #declared, #(#compared)*);
     };
     let item = documentation::reported(report, written, layout.is_whole, &item);
     let values = values(layout, &structure, &quote!(self));

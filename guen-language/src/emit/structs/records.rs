@@ -186,12 +186,13 @@ fn record(
         parts::add(modules, name, &structure, &docs_of, &|_| quote!(R), true);
         return structured(&record, docs, fields, &structure, instances);
     }
+    let raw = structure.idents().any(|ident| ident.to_string().starts_with("r#")).then(|| quote!([raw]));
     // A name in a pattern would mean a constant or an operator of that name, if there is one.
     let fields = fields.iter().zip(structure.idents()).enumerate().map(|(i, (Field { docs, .. }, ident))| {
         let local = format_ident!("__guen_{i}");
         quote!(#docs #ident #local,)
     });
-    quote!(__guen::record! { #[doc = #docs] #record #count #(#fields)* })
+    quote!(__guen::record! { #[doc = #docs] #record #count #raw #(#fields)* })
 }
 
 /// A record with arrays.

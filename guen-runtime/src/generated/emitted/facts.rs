@@ -156,14 +156,13 @@ macro_rules! sourced {
     };
 }
 
-/// A function that is never called, in which names refer to statics at their declarations: for editors.
+/// A function that is never called, in which names refer to parameters at their declarations: for editors.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! uses {
     ($($declared:ident)*; $($used:ident)*) => {
         #[allow(dead_code, reason = "for editors: it is never called")]
-        fn __guen_uses_lead_to_declarations() {
-            $(static $declared: () = ();)*
+        fn __guen_uses_lead_to_declarations<$(const $declared: ::core::primitive::bool),*>() {
             let _ = [$($used),*];
         }
     };

@@ -362,15 +362,15 @@ macro_rules! linearizable {
 macro_rules! actuated {
     ($([$($F:ident $N:literal)*])? $size:literal, $what:literal) => {
         #[doc = ::core::concat!("A ", $what, ", prepared, with inputs that are held: what steppers integrate during a step.")]
-        #[::core::prelude::v1::derive(
-            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
-        )]
+        #[::core::prelude::v1::derive(::core::fmt::Debug)]
         pub struct Driven<R = f64 $($(, $F = f64)*)?> {
             #[doc = ::core::concat!("The ", $what, ".")]
             pub system: Prepared<R $($(, $F)*)?>,
             /// The inputs that are held.
             pub inputs: Inputs<R>,
         }
+
+        $crate::copied!($([$($F $N)*])? R Driven, system inputs);
 
         impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> Prepared<R $($(, $F)*)?> {
             #[doc = ::core::concat!("The ", $what, " with these inputs held.")]

@@ -65,11 +65,20 @@ macro_rules! momenta {
     };
 }
 
-/// The items of the system itself that no scene can choose, with the numbers of coordinates, of parameters and of states.
+/// The items of the system itself that no scene can choose, with the numbers of coordinates, of parameters and of states, and the program
+/// of the power where it is not zero.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! motion_of_system {
-    ($n:literal, $l:literal, $size:literal $(, $inputs:ident)?) => {
+    (@ $self:ident, $t:ident, $state:ident, [], $n:literal, $l:literal, $size:literal $(, $inputs:ident)?) => {{
+        let _ = ($t, $state $(, $inputs)?);
+        R::zero()
+    }};
+    (@ $self:ident, $t:ident, $state:ident, [$power:ident], $n:literal, $l:literal, $size:literal $(, $inputs:ident)?) => {{
+        let [value] = $crate::at_accelerations!($self, $t, $state, $power, $n, $l, $size $(, $inputs)?);
+        value
+    }};
+    ([$($power:ident)?], $n:literal, $l:literal, $size:literal $(, $inputs:ident)?) => {
         /// The velocities `x' = xi_0 + sum_s eta_s xi_s` of a state, (1.8).
         #[inline]
         pub fn velocities(&self, t: R, state: &State<R>) -> Coordinates<R> {
@@ -99,8 +108,7 @@ macro_rules! motion_of_system {
         /// `h' = Q.x' - sum_v lambda_v a_v0 - d(T° + U)/dt`.
         #[inline]
         pub fn power(&self, t: R, state: &State<R> $(, $inputs: &Inputs<R>)?) -> R {
-            let [value] = $crate::at_accelerations!(self, t, state, power, $n, $l, $size $(, $inputs)?);
-            value
+            $crate::motion_of_system!(@ self, t, state, [$($power)?], $n, $l, $size $(, $inputs)?)
         }
     };
 }
@@ -341,14 +349,14 @@ macro_rules! prepared {
         $docs:literal $count:literal $hoisted:ty $(, $follows:ident $derived:literal)?
     ) => {
         #[doc = $docs]
-        #[::core::prelude::v1::derive(
-            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
-        )]
+        #[::core::prelude::v1::derive(::core::fmt::Debug)]
         pub struct Prepared<R = f64 $($(, $F = f64)*)?> {
             constants: [R; $count],
             hoisted: $hoisted,
             $($follows: [bool; $derived],)?
         }
+
+        $crate::copied!($([$($F $N)*])? R Prepared, constants hoisted $($follows)?);
 
         impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> Prepared<R $($(, $F)*)?> {
             /// The system over a real that contains `R`, such as duals over it: every prepared value becomes
