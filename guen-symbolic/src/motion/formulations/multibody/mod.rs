@@ -30,6 +30,7 @@ use self::velocities::variables::Variables;
 use crate::algebra::{ExprId, FastMap};
 use crate::motion::graph::Turn;
 use crate::motion::quasi_velocities::velocity_forms::VelocityPartials;
+use crate::motion::thresholds::OTHER_WAYS;
 use crate::motion::{Frame, Mechanics, MotionEquations};
 use crate::numbering::{Num, Numbering};
 use crate::program::weighted_cost;
@@ -63,7 +64,6 @@ pub(super) fn rates(
     if structure.bodies.is_empty() || !is_understood(bench, system) {
         return None;
     }
-    let system = &potentials::as_forces(bench, system, frame);
     // A rotation that is one on its constraint alone.
     let on_manifold = has_general_turns(system) && !system.holonomic.is_empty();
     // What rolls and is posed by a quaternion has no axes here in which its contact rests: entries that are small where others
@@ -72,18 +72,31 @@ pub(super) fn rates(
     if on_manifold && rolls && !is_alone {
         return None;
     }
-    let mut by = |bench: &mut Workbench, inertial| {
-        (0..POINTS).find_map(|point| {
-            attempt(bench, system, frame, partials, (point, on_manifold), inertial, &is_stated)
-        })
-    };
-    let by_bodies = by(bench, InertialForces::OfBodies)?;
-    if !inertial_forces::are_derivatives(bench, system, frame) {
-        return Some(by_bodies);
+    let forced = potentials::as_forces(bench, system, frame);
+    let mut best: Option<Found> = None;
+    for system in [&forced, system] {
+        let cost = |bench: &Workbench, found: &Found| weighted_cost(&bench.graph, &found.rates);
+        // In a few coordinates derivatives of a potential may be shorter than the places.
+        let is_long = best.as_ref().is_some_and(|found| cost(bench, found) > OTHER_WAYS);
+        if best.is_some() && (is_long || system.forces.len() == forced.forces.len()) {
+            break;
+        }
+        let mut by = |bench: &mut Workbench, inertial| {
+            (0..POINTS).find_map(|point| {
+                attempt(bench, system, frame, partials, (point, on_manifold), inertial, &is_stated)
+            })
+        };
+        let by_bodies = by(bench, InertialForces::OfBodies);
+        let by_mass = match by_bodies {
+            Some(_) if inertial_forces::are_derivatives(bench, system, frame) => {
+                by(bench, InertialForces::OfTheMass)
+            }
+            _ => None,
+        };
+        // Among equals the first.
+        best = best.into_iter().chain(by_bodies).chain(by_mass).min_by_key(|found| cost(bench, found));
     }
-    let by_mass = by(bench, InertialForces::OfTheMass);
-    let cost = |found: &Found| weighted_cost(&bench.graph, &found.rates);
-    Some(by_mass.filter(|found| cost(found) < cost(&by_bodies)).unwrap_or(by_bodies))
+    best
 }
 
 /// The inertial forces in the equations.
