@@ -256,6 +256,7 @@ impl Evaluator<'_> {
                 let v = self.vector(function, &values[0])?;
                 let square = inner(&mut self.bench, &v, &v);
                 let square = self.bench.tidy(square);
+                self.shapes.inner(&mut self.bench.graph, &v, &v, square);
                 let length = self.bench.graph.sqrt(square);
                 self.shapes.length(&mut self.bench.graph, &v, length);
                 if text == "norm" {

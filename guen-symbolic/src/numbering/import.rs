@@ -168,7 +168,10 @@ impl Numbering {
     /// The value of an expression of the graph at the point.
     pub(crate) fn at_point(&mut self, bench: &mut Workbench, e: ExprId) -> Option<u64> {
         let (point, on_manifold) = self.point;
-        let value = bench.zero.value_at(&mut bench.graph, point, e, on_manifold);
+        let value = match self.roots {
+            Some(_) => bench.zero.drawn_value_at(&bench.graph, point, e, on_manifold),
+            None => bench.zero.value_at(&mut bench.graph, point, e, on_manifold),
+        };
         if bench.zero.generation() != self.generation {
             // The point has moved.
             self.failed = true;

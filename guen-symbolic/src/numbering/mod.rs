@@ -16,7 +16,8 @@ mod tests;
 pub(crate) use rate::Rates;
 
 use crate::algebra::{ExprId, FastMap, Graph, Key, Rational, spread};
-use crate::zero::field;
+use crate::workbench::Workbench;
+use crate::zero::{DrawnRoots, field};
 
 /// A number of an expression, with a sign.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
@@ -114,6 +115,8 @@ pub(crate) struct Numbering {
     rates: FastMap<Num, Num>,
     /// The point of the zero test, and whether it lies on the constraints on positions.
     point: (usize, bool),
+    /// The roots at the point, where these are drawn.
+    roots: Option<DrawnRoots>,
     generation: u32,
     /// An expression has no value at the point: whatever comes of it is of no use.
     failed: bool,
@@ -131,6 +134,7 @@ impl Numbering {
             multiples: Vec::new(),
             rates: FastMap::default(),
             point,
+            roots: None,
             generation,
             failed: false,
         };
@@ -148,6 +152,13 @@ impl Numbering {
     }
 
     /// Whether everything had a value so far.
+    /// Returns the table with square roots that are drawn for their radicands: not every point has all roots of many.
+    pub(crate) fn with_drawn_roots(mut self, bench: &mut Workbench) -> Self {
+        let (point, on_manifold) = self.point;
+        self.roots = bench.zero.drawn_roots(&bench.graph, point, on_manifold);
+        self
+    }
+
     pub(crate) fn is_sound(&self) -> bool {
         !self.failed
     }
@@ -268,6 +279,13 @@ impl Numbering {
         if a == Num::ONE || b == Num::ONE {
             return if a == Num::ONE { b } else { a }.signed(negative);
         }
+        // The square of a root that is drawn has another value than the radicand.
+        if a == b
+            && self.roots.is_some()
+            && let Op::SquareRoot(radicand) = self.ops[a.index()]
+        {
+            return radicand.signed(negative);
+        }
         let residue = field::mul(self.residue(a), self.residue(b));
         let constant = self.is_constant(a) && self.is_constant(b);
         if let Some(known) = self.with_residue(residue)
@@ -310,14 +328,21 @@ impl Numbering {
     }
 
     pub(crate) fn sqrt(&mut self, a: Num) -> Num {
-        let Some(root) = field::sqrt(self.residue(a)) else { return self.fail() };
+        let Some(root) = self.root_of(a) else { return self.fail() };
         let constant = self.is_constant(a);
         self.push(Op::SquareRoot(a), root, constant)
     }
 
     /// The square root, if it is there.
     pub(crate) fn known_root(&self, a: Num) -> Option<Num> {
-        field::sqrt(self.residue(a)).and_then(|root| self.with_residue(root))
+        self.root_of(a).and_then(|root| self.with_residue(root))
+    }
+
+    fn root_of(&self, a: Num) -> Option<u64> {
+        match self.roots {
+            Some(roots) => Some(roots.of(self.residue(a))),
+            None => field::sqrt(self.residue(a)),
+        }
     }
 
     pub(crate) fn square(&mut self, a: Num) -> Num {

@@ -235,3 +235,43 @@ fn sums_are_found_within_others_in_functions_and_as_multiples() {
     let number = alone.import(&mut bench, plain);
     assert_eq!(alone.export(&mut bench.graph, &[number]), [plain]);
 }
+
+/// Of twenty radicands hardly a point has all roots. The square of each is the radicand, and `1/sqrt(x)` is `sqrt(x)/x`.
+#[test]
+fn roots_may_be_drawn() {
+    let mut bench = bench();
+    let [x] = symbols(&mut bench, Role::Coordinate);
+    let square = bench.graph.powi(x, 2);
+    let radicands: Vec<ExprId> = (1..=20)
+        .map(|k| {
+            let number = bench.graph.number(Rational::integer(k));
+            bench.graph.add(square, number)
+        })
+        .collect();
+    let generation = bench.zero.generation();
+    let mut n = Numbering::new(&mut bench.graph, (0, false), generation).with_drawn_roots(&mut bench);
+    let mut sum = Num::ZERO;
+    for radicand in &radicands {
+        let number = n.import(&mut bench, *radicand);
+        let root = n.sqrt(number);
+        assert_eq!(n.mul(root, root), number);
+        assert_eq!(n.mul(root, root.neg()), number.neg());
+        let written = bench.graph.sqrt(*radicand);
+        assert_eq!(n.import(&mut bench, written), root);
+        let inverse = n.div(Num::ONE, root);
+        sum = n.add(sum, inverse);
+    }
+    assert!(n.is_sound());
+    let [exported] = n.export(&mut bench.graph, &[sum]).try_into().unwrap();
+    let inverses: Vec<ExprId> = radicands
+        .iter()
+        .map(|radicand| {
+            let root = bench.graph.sqrt(*radicand);
+            let root = bench.graph.keep(root);
+            bench.graph.powi(root, -1)
+        })
+        .collect();
+    let written = bench.graph.sum(inverses);
+    let difference = bench.graph.sub(exported, written);
+    assert!(bench.zero.is_zero(&mut bench.graph, difference));
+}

@@ -21,7 +21,7 @@ mod tests;
 use manifold::Manifold;
 pub(crate) use positions::drawn_states;
 use real::{RealPoint, RealRank, Sighting};
-pub(crate) use sample::Sample;
+pub(crate) use sample::{DrawnRoots, Sample};
 use table::{ATOM, OPAQUE, PIECEWISE, ROOT, SIGN, TRANSCENDENTAL, Table, UNDEFINED};
 
 pub(crate) use real::apply;
@@ -93,6 +93,8 @@ pub struct ZeroTest {
 #[derive(Debug, Default)]
 struct Domain {
     samples: Vec<Sample>,
+    /// The samples with drawn roots.
+    drawn: Vec<Sample>,
     generation: u32,
     reals: Vec<Option<RealPoint>>,
     verdicts: FastMap<ExprId, Verdict>,
@@ -284,6 +286,37 @@ impl ZeroTest {
         samples[point].value(g, table, e)
     }
 
+    /// The square roots at the point of a number with drawn roots.
+    pub(crate) fn drawn_roots(&mut self, g: &Graph, point: usize, on_manifold: bool) -> Option<DrawnRoots> {
+        let point = self.drawn(g, point, on_manifold)?;
+        Some(point.roots())
+    }
+
+    /// The value of an expression at the point of a number with drawn roots.
+    pub(crate) fn drawn_value_at(
+        &mut self,
+        g: &Graph,
+        point: usize,
+        e: ExprId,
+        on_manifold: bool,
+    ) -> Option<u64> {
+        self.table.scan(g);
+        self.drawn(g, point, on_manifold)?;
+        let domain = if on_manifold && self.manifold.is_some() { &mut self.bound } else { &mut self.free };
+        domain.drawn[point].value(g, &self.table, e)
+    }
+
+    /// Makes sure that the point of a number with drawn roots exists.
+    fn drawn(&mut self, g: &Graph, number: usize, on_manifold: bool) -> Option<&Sample> {
+        self.sample(g, number, on_manifold)?;
+        let domain = if on_manifold && self.manifold.is_some() { &mut self.bound } else { &mut self.free };
+        while domain.drawn.len() <= number {
+            let point = domain.samples[domain.drawn.len()].with_drawn_roots();
+            domain.drawn.push(point);
+        }
+        Some(&domain.drawn[number])
+    }
+
     /// Whether a residue has a sign by chance, so that one point tells nothing of others: where absolute values or signs occur, or roots of
     /// squares.
     pub(crate) fn has_signs(&mut self, g: &Graph, e: ExprId) -> bool {
@@ -445,6 +478,7 @@ impl ZeroTest {
         // Points that solve equations move with the points of the circle they were computed from.
         if manifold.is_some() && domain.generation != self.table.generation {
             domain.samples.clear();
+            domain.drawn.clear();
         }
         domain.generation = self.table.generation;
         while domain.samples.len() <= number {
@@ -556,11 +590,7 @@ impl ZeroTest {
 
     /// Whether an expression vanishes at points with drawn roots, as many as without any roots.
     fn vanishes_whatever_roots_are(&mut self, g: &Graph, e: ExprId, on_manifold: bool) -> bool {
-        (0..POINTS).all(|number| {
-            let point = self.sample(g, number, on_manifold);
-            let (table, samples) = self.parts(on_manifold);
-            point.is_some_and(|point| samples[point].with_drawn_roots().value(g, table, e) == Some(0))
-        })
+        (0..POINTS).all(|number| self.drawn_value_at(g, number, e, on_manifold) == Some(0))
     }
 
     /// The real point of a number, which is made once; `None` if there is no such point.

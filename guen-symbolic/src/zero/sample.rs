@@ -2,7 +2,7 @@
 
 use super::field::{self, PRIME, Point, add, inverse, mul, neg, sub};
 use super::table::{Op, Table};
-use crate::algebra::{ExprId, FastMap, Function, Graph, Multivariate, SignBound, SymbolId, mix};
+use crate::algebra::{ExprId, FastMap, Function, Graph, Multivariate, Node, SignBound, SymbolId, mix};
 
 // What a draw is for: each purpose has its own stream.
 const OF_SYMBOL: u64 = 1;
@@ -18,6 +18,32 @@ const POLE: u64 = 1;
 const SET: u64 = 2;
 
 const MINUS_ONE: u64 = PRIME - 1;
+
+fn draw(seed: u64, purpose: u64, index: u64) -> u64 {
+    mix(mix(seed ^ purpose) ^ index) % PRIME
+}
+
+/// The square roots at a point where they are drawn for their radicands.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DrawnRoots {
+    seed: u64,
+}
+
+impl DrawnRoots {
+    /// The root of a radicand.
+    pub(crate) fn of(self, radicand: u64) -> u64 {
+        draw(self.seed, OF_ATOM + Function::Root(2).code() * 256, radicand)
+    }
+}
+
+/// The order and the radicand of a root, which may be kept whole.
+fn root(graph: &Graph, e: ExprId) -> Option<(u32, ExprId)> {
+    match graph.node(e) {
+        Node::Kept(x) => root(graph, *x),
+        Node::Function(Function::Root(q), x) => Some((*q, *x)),
+        _ => None,
+    }
+}
 
 /// A random point.
 #[derive(Clone, Debug, Default)]
@@ -55,7 +81,7 @@ impl Sample {
     }
 
     /// Returns the point without values, with numbers drawn for roots, absolute values and signs. What vanishes there does for any values
-    /// of these, and so for the true ones; what does not may vanish all the same, as `sqrt(x)^2 - x` does.
+    /// of these, and so for the true ones; what does not may vanish all the same, as `(sqrt(x) + 1)^2 - x - 2 sqrt(x) - 1` does.
     pub(crate) fn with_drawn_roots(&self) -> Self {
         Sample { has_drawn_roots: true, ..self.fresh() }
     }
@@ -73,7 +99,12 @@ impl Sample {
     }
 
     fn draw(&self, purpose: u64, index: u64) -> u64 {
-        mix(mix(self.seed ^ purpose) ^ index) % PRIME
+        draw(self.seed, purpose, index)
+    }
+
+    /// The square roots at the point with drawn roots.
+    pub(crate) fn roots(&self) -> DrawnRoots {
+        DrawnRoots { seed: self.seed }
     }
 
     /// The residue of a symbol: a square where the declaration says it is positive.
@@ -200,7 +231,19 @@ impl Sample {
                 let mut index = 0;
                 while index < factors.len() {
                     let (base, e) = &factors[index];
+                    index += 1;
                     let value = at(base);
+                    // The square of a root is the radicand, whatever is drawn for the root.
+                    if self.has_drawn_roots
+                        && let Some((q, radicand)) = root(graph, *base)
+                    {
+                        let q = i32::try_from(q).ok()?;
+                        above = mul(above, field::pow(value, u64::try_from(e.rem_euclid(q)).ok()?));
+                        let power = field::pow(at(&radicand), e.div_euclid(q).unsigned_abs().into());
+                        let side = if *e < 0 { &mut below } else { &mut above };
+                        *side = mul(*side, power);
+                        continue;
+                    }
                     match *e {
                         1 => above = mul(above, value),
                         2 => above = mul(above, mul(value, value)),
@@ -211,7 +254,6 @@ impl Sample {
                             *side = mul(*side, power);
                         }
                     }
-                    index += 1;
                 }
                 if below == 1 { Some(above) } else { Some(mul(above, inverse(below)?)) }
             }
@@ -230,6 +272,9 @@ impl Sample {
                     Function::Tanh => Some(mul(sub(e, inverse), field::inverse(add(e, inverse))?)),
                     _ => None,
                 }
+            }
+            Op::At(function, x) if self.has_drawn_roots => {
+                Some(self.draw(OF_ATOM + function.code() * 256, at(x)))
             }
             Op::At(function, x) if self.has_drawn_roots => {
                 Some(self.draw(OF_ATOM + function.code() * 256, at(x)))

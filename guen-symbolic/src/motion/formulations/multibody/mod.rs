@@ -38,6 +38,8 @@ use crate::workbench::Workbench;
 
 /// Points of the zero test that are tried: not everywhere does every root exist.
 const POINTS: usize = 8;
+/// Points with drawn roots that are tried.
+const DRAWN_POINTS: usize = 2;
 
 /// The result of deriving a tree of bodies.
 #[derive(Clone)]
@@ -82,9 +84,9 @@ pub(super) fn rates(
             break;
         }
         let mut by = |bench: &mut Workbench, inertial| {
-            (0..POINTS).find_map(|point| {
-                attempt(bench, system, frame, partials, (point, on_manifold), inertial, &is_stated)
-            })
+            points(bench, system, on_manifold)
+                .into_iter()
+                .find_map(|point| attempt(bench, system, frame, partials, point, inertial, &is_stated))
         };
         let by_bodies = by(bench, InertialForces::OfBodies);
         let by_mass = match by_bodies {
@@ -97,6 +99,32 @@ pub(super) fn rates(
         best = best.into_iter().chain(by_bodies).chain(by_mass).min_by_key(|found| cost(bench, found));
     }
     best
+}
+
+/// A point of the zero test at which expressions are numbered.
+#[derive(Clone, Copy)]
+struct At {
+    number: usize,
+    on_manifold: bool,
+    has_drawn_roots: bool,
+}
+
+impl At {
+    fn numbering(self, bench: &mut Workbench) -> Numbering {
+        let generation = bench.zero.generation();
+        let own = Numbering::new(&mut bench.graph, (self.number, self.on_manifold), generation);
+        if self.has_drawn_roots { own.with_drawn_roots(bench) } else { own }
+    }
+}
+
+/// The points that are tried; of systems with roots at last those at which roots are drawn: of the others hardly one has many roots.
+fn points(bench: &mut Workbench, system: &Mechanics, on_manifold: bool) -> Vec<At> {
+    let lengths = system.structure.lengths.iter().map(|(length, _)| *length);
+    let has_roots =
+        lengths.chain(system.expressions()).any(|e| bench.zero.has_signs_or_roots(&bench.graph, e));
+    let at = |number, has_drawn_roots| At { number, on_manifold, has_drawn_roots };
+    let drawn = if has_roots { DRAWN_POINTS } else { 0 };
+    (0..POINTS).map(|number| at(number, false)).chain((0..drawn).map(|number| at(number, true))).collect()
 }
 
 /// The inertial forces in the equations.
@@ -154,9 +182,9 @@ pub(in crate::motion) fn freed(
     let mut free = potentials::as_forces(bench, system, frame);
     free.forms.degrees = n;
     free.holonomic.clear();
-    let mut attempt = |free: &Mechanics, point| {
-        let generation = bench.zero.generation();
-        let mut own = Numbering::new(&mut bench.graph, (point, on_manifold), generation);
+    let tried = points(bench, &free, on_manifold);
+    let mut attempt = |free: &Mechanics, point: At| {
+        let mut own = point.numbering(bench);
         let (mass, forces) = assembled(
             bench,
             &mut own,
@@ -174,7 +202,7 @@ pub(in crate::motion) fn freed(
         let forces = entries.split_off(n * l);
         Some(MotionEquations { mass: (0..n).map(|j| entries[j * l..][..l].to_vec()).collect(), forces })
     };
-    if let Some(found) = (0..POINTS).find_map(|point| attempt(&free, point)) {
+    if let Some(found) = tried.iter().find_map(|point| attempt(&free, *point)) {
         return Some(found);
     }
     if free.forces.is_empty() {
@@ -183,7 +211,7 @@ pub(in crate::motion) fn freed(
     // Along a velocity that does not follow here forces are as the operators have them.
     free.forces.clear();
     free.structure.loads.clear();
-    let found = (0..POINTS).find_map(|point| attempt(&free, point))?;
+    let found = tried.iter().find_map(|point| attempt(&free, *point))?;
     Some(found.driven(bench, generalised_forces))
 }
 
@@ -203,6 +231,9 @@ fn assembled<T>(
     let mut tree = Tree::new(bench, numbers, system, partials)?;
     let strains = Strain::all(bench, numbers, (system, frame), &tree, moving..system.forms.degrees)?;
     let shapes = declared::shapes(bench, numbers, system, (&mut tree, &strains))?;
+    if !numbers.is_sound() {
+        return None;
+    }
     let variables = Variables::new(bench, numbers, system, &tree)?;
     let declared = Declared::new(bench, numbers, system, partials, (&tree, &variables), &shapes)?;
     tree.regroup(numbers, &variables);
@@ -251,13 +282,12 @@ fn attempt(
     system: &Mechanics,
     frame: &Frame,
     partials: &mut VelocityPartials,
-    point: (usize, bool),
+    point: At,
     inertial: InertialForces,
     is_stated: impl Fn(u64) -> bool,
 ) -> Option<Found> {
     let (n, l) = (system.forms.len(), system.forms.degrees);
-    let generation = bench.zero.generation();
-    let mut own = Numbering::new(&mut bench.graph, point, generation);
+    let mut own = point.numbering(bench);
     let solved =
         assembled(bench, &mut own, (system, l, inertial), frame, partials, |assembly, velocities| {
             let (accelerations, pivots, root) = assembly.solve()?;
@@ -277,7 +307,7 @@ fn attempt(
         let forces = entries.split_off(l * l);
         MotionEquations { mass: (0..l).map(|s| entries[s * l..][..l].to_vec()).collect(), forces }
     });
-    if point.1 && drifts(bench, system, &rates[..n]) {
+    if point.on_manifold && drifts(bench, system, &rates[..n]) {
         rates[..n].copy_from_slice(&frame.velocities);
     }
     Some(Found { rates, pivots, equations })
