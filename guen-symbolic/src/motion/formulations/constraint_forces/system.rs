@@ -196,17 +196,22 @@ pub(super) fn summands(bench: &mut Workbench, e: ExprId) -> Vec<ExprId> {
     }
 }
 
-/// Terms with the sums multiplied out that are factors of them and depend on the state.
+/// Terms with the sums multiplied out that are factors of them and depend on the state: of several long ones only one, because products of
+/// all their terms are more than any rate has.
 pub(super) fn spread(bench: &mut Workbench, terms: Vec<ExprId>) -> Vec<ExprId> {
+    /// The terms of the shorter sums of a product, multiplied: a length beside a constant has two.
+    const MOST_BESIDE_THE_LONGEST: usize = 8;
     let mut found = Vec::new();
-    let mut open = terms;
-    while let Some(term) = open.pop() {
+    // Each with the number of products that it is one of, and the longest sum in them.
+    let mut open: Vec<(ExprId, usize, usize)> = terms.into_iter().map(|term| (term, 1, 1)).collect();
+    while let Some((term, products, longest)) = open.pop() {
         let (coefficient, monomial) = bench.graph.split_coefficient(term);
         // The opposite of a sum.
         if let Node::Sum { .. } = bench.graph.node(monomial) {
-            open.extend(
-                summands(bench, monomial).into_iter().map(|part| bench.graph.scale(part, &coefficient)),
-            );
+            open.extend(summands(bench, monomial).into_iter().map(|part| {
+                let part = bench.graph.scale(part, &coefficient);
+                (part, products, longest)
+            }));
             continue;
         }
         let factors = bench.graph.factors(monomial).to_vec();
@@ -219,10 +224,16 @@ pub(super) fn spread(bench: &mut Workbench, terms: Vec<ExprId>) -> Vec<ExprId> {
             found.push(term);
             continue;
         };
+        let parts = summands(bench, sum);
+        let (products, longest) = (products.saturating_mul(parts.len()), longest.max(parts.len()));
+        if products / longest > MOST_BESIDE_THE_LONGEST {
+            found.push(term);
+            continue;
+        }
         let others = bench.graph.div(term, sum);
-        for part in summands(bench, sum) {
+        for part in parts {
             let product = bench.graph.mul(others, part);
-            open.extend(summands(bench, product));
+            open.extend(summands(bench, product).into_iter().map(|part| (part, products, longest)));
         }
     }
     found.reverse();
@@ -286,4 +297,27 @@ fn by_least_fill(bench: &mut Workbench, matrix: Vec<Vector>, right: Vec<ExprId>)
         Some(k)
     };
     eliminate(bench, matrix, right, Naming::Definite, choose).map(|Elimination { values, .. }| values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::spread;
+    use crate::algebra::{ExprId, Graph, Role};
+    use crate::workbench::Workbench;
+
+    /// A spring with a length has two sums in its force; inner products of places have many.
+    #[test]
+    fn products_of_long_sums_are_not_multiplied_out() {
+        let mut bench = Workbench::new(Graph::new());
+        let mut sum = |name: &str, terms: usize| {
+            let terms: Vec<ExprId> =
+                (0..terms).map(|k| bench.graph.symbol(&format!("{name}{k}"), Role::Coordinate)).collect();
+            bench.graph.sum(terms)
+        };
+        let [short, long, other, third] = [("a", 2), ("b", 30), ("c", 30), ("d", 30)].map(|(n, k)| sum(n, k));
+        let few = bench.graph.product(&[(short, 1), (long, 1)]);
+        assert_eq!(spread(&mut bench, vec![few]).len(), 60);
+        let many = bench.graph.product(&[(long, 1), (other, 1), (third, 1)]);
+        assert!(spread(&mut bench, vec![many]).len() <= 30);
+    }
 }
