@@ -290,6 +290,14 @@ impl Graph {
         }
     }
 
+    /// An expression without the number that it is a multiple of.
+    pub(crate) fn monomial(&self, id: ExprId) -> ExprId {
+        match self.node(id) {
+            Node::Sum { constant, terms } if constant.is_zero() && terms.len() == 1 => terms[0].0,
+            _ => id,
+        }
+    }
+
     /// The divisors of some expressions.
     pub(crate) fn divisors(&self, es: &[ExprId]) -> Vec<ExprId> {
         let below = self.reachable(es, |_| false).into_iter();

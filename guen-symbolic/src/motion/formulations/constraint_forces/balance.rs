@@ -429,9 +429,22 @@ fn divides_safely(bench: &Workbench, e: ExprId) -> bool {
 
 /// Whether an expression divides by nothing but what another one divides by, or is known to differ from zero.
 pub(super) fn divides_as(bench: &Workbench, e: ExprId, other: ExprId) -> bool {
+    let doubtful = |base: &ExprId| !bench.graph.manifestly_nonzero(*base);
+    // Most are seen at once: the sums below a force of a long family are as long as it.
+    let own = |e: ExprId| {
+        let factors = bench.graph.factors(e).iter().filter(|(_, exponent)| *exponent < 0);
+        factors.map(|(base, _)| *base).collect::<Vec<_>>()
+    };
+    let (of_other, of_ratio) = (own(bench.graph.monomial(other)), own(bench.graph.monomial(e)));
+    if of_ratio.iter().any(|base| doubtful(base) && !of_other.contains(base)) {
+        return false;
+    }
+    let divided: Vec<ExprId> = bench.graph.divisors(&[e]).into_iter().filter(doubtful).collect();
+    if divided.is_empty() {
+        return true;
+    }
     let known = bench.graph.divisors(&[other]);
-    let divided = bench.graph.divisors(&[e]);
-    divided.into_iter().all(|base| known.contains(&base) || bench.graph.manifestly_nonzero(base))
+    divided.iter().all(|base| known.contains(base))
 }
 
 /// Returns a common factor of products that none of them loses by division. Constants that might vanish are left.

@@ -39,7 +39,7 @@ use crate::motion::thresholds::DENSE_COST;
 use crate::workbench::Workbench;
 use balance::{Balance, balance};
 use pattern::Pattern;
-use system::{System, spread, summands, terms, with_whole_factors};
+use system::{System, spread, summands, terms, terms_with_whole_factors, with_whole_factors};
 
 pub(super) use tree::{Differences, Edge};
 
@@ -152,9 +152,12 @@ pub(super) fn solve(
     let mut rest: Vec<Vec<ExprId>> = (0..l)
         .map(|s| {
             let e = bench.graph.add(rest[s], forces[s]);
-            let e = with_whole_factors(bench, e);
             // A limit on the work for an expression would make the members of a long family different.
-            let found = if bench.graph.nests_sums() { summands(bench, e) } else { terms(bench, e, etas) };
+            if bench.graph.nests_sums() {
+                return terms_with_whole_factors(bench, e);
+            }
+            let e = with_whole_factors(bench, e);
+            let found = terms(bench, e, etas);
             spread(bench, found)
         })
         .collect();

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::algebra::{ExprId, FastMap, Node, Rational, Substitution};
+use crate::algebra::{ExprId, FastMap, Node, Rational, Role, Substitution};
 use crate::motion::coordinates::relative_angles::RelativeAngles;
 use crate::motion::mass_matrix::solve::{Elimination, Naming, eliminate};
 use crate::motion::mass_matrix::sparse::Vector;
@@ -161,6 +161,25 @@ pub(super) fn with_whole_factors(bench: &mut Workbench, e: ExprId) -> ExprId {
         }
     }
     whole.of(&mut bench.graph, e)
+}
+
+/// The terms of a force with sums of two terms or more whole that are factors of a term itself: nobody looks into them.
+pub(super) fn terms_with_whole_factors(bench: &mut Workbench, e: ExprId) -> Vec<ExprId> {
+    let whole = |bench: &mut Workbench, term: ExprId| {
+        let (coefficient, monomial) = bench.graph.split_coefficient(term);
+        let mut factors = bench.graph.factors(monomial).to_vec();
+        for (base, _) in &mut factors {
+            if summands(bench, *base).len() > 1 && bench.graph.roles(*base).has(Role::Coordinate) {
+                *base = bench.graph.keep(*base);
+            }
+        }
+        if factors.is_empty() {
+            return term;
+        }
+        let product = bench.graph.product(&factors);
+        bench.graph.scale(product, &coefficient)
+    };
+    summands(bench, e).into_iter().map(|term| whole(bench, term)).collect()
 }
 
 /// The terms of a polynomial in the parameters with tidy coefficients, or of the sum as it is.

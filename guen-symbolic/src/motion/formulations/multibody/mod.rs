@@ -76,11 +76,12 @@ pub(super) fn rates(
     }
     let forced = potentials::as_forces(bench, system, frame);
     let mut best: Option<Found> = None;
-    for system in [&forced, system] {
+    let has_others = forced.forces.len() > system.forces.len();
+    for (system, is_tried) in [(&forced, true), (system, has_others)] {
         let cost = |bench: &Workbench, found: &Found| weighted_cost(&bench.graph, &found.rates);
         // In a few coordinates derivatives of a potential may be shorter than the places.
         let is_long = best.as_ref().is_some_and(|found| cost(bench, found) > OTHER_WAYS);
-        if best.is_some() && (is_long || system.forces.len() == forced.forces.len()) {
+        if is_long || !is_tried {
             break;
         }
         let mut by = |bench: &mut Workbench, inertial| {
