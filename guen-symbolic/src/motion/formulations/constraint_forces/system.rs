@@ -168,18 +168,22 @@ pub(super) fn terms_with_whole_factors(bench: &mut Workbench, e: ExprId) -> Vec<
     let whole = |bench: &mut Workbench, term: ExprId| {
         let (coefficient, monomial) = bench.graph.split_coefficient(term);
         let mut factors = bench.graph.factors(monomial).to_vec();
+        let is_moving = |(base, _): &&(ExprId, i32)| bench.graph.roles(*base).has(Role::Coordinate);
+        // Multiples of sums of functions of the coordinates are sums, of which neighbours have most in common.
+        match factors.iter().filter(is_moving).count() {
+            0 => return spread(bench, vec![term]),
+            1 => return vec![term],
+            _ => {}
+        }
         for (base, _) in &mut factors {
             if summands(bench, *base).len() > 1 && bench.graph.roles(*base).has(Role::Coordinate) {
                 *base = bench.graph.keep(*base);
             }
         }
-        if factors.is_empty() {
-            return term;
-        }
         let product = bench.graph.product(&factors);
-        bench.graph.scale(product, &coefficient)
+        vec![bench.graph.scale(product, &coefficient)]
     };
-    summands(bench, e).into_iter().map(|term| whole(bench, term)).collect()
+    summands(bench, e).into_iter().flat_map(|term| whole(bench, term)).collect()
 }
 
 /// The terms of a polynomial in the parameters with tidy coefficients, or of the sum as it is.
