@@ -98,7 +98,7 @@ fn a_hinge_closes_whichever_way_its_axis_points() {
             "{guess:?} {end:?}"
         );
         assert!(guen::Positions::surplus(&driven, 0.0, &end) < 1e-7);
-        // What is given stays.
+        // Coordinates that are given keep their values.
         let held = system.consistent(0.0, &found, &["w", "i"]).unwrap();
         assert_eq!((held.w, held.i), (found.w, found.i));
     }

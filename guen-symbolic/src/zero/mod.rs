@@ -6,6 +6,7 @@
 //! could differ while the function does not. All draws have fixed seeds: the same question has the
 //! same answer in every expansion.
 
+mod drawn;
 pub(crate) mod field;
 pub(crate) mod jets;
 mod manifold;
@@ -286,37 +287,6 @@ impl ZeroTest {
         samples[point].value(g, table, e)
     }
 
-    /// The square roots at the point of a number with drawn roots.
-    pub(crate) fn drawn_roots(&mut self, g: &Graph, point: usize, on_manifold: bool) -> Option<DrawnRoots> {
-        let point = self.drawn(g, point, on_manifold)?;
-        Some(point.roots())
-    }
-
-    /// The value of an expression at the point of a number with drawn roots.
-    pub(crate) fn drawn_value_at(
-        &mut self,
-        g: &Graph,
-        point: usize,
-        e: ExprId,
-        on_manifold: bool,
-    ) -> Option<u64> {
-        self.table.scan(g);
-        self.drawn(g, point, on_manifold)?;
-        let domain = if on_manifold && self.manifold.is_some() { &mut self.bound } else { &mut self.free };
-        domain.drawn[point].value(g, &self.table, e)
-    }
-
-    /// Makes sure that the point of a number with drawn roots exists.
-    fn drawn(&mut self, g: &Graph, number: usize, on_manifold: bool) -> Option<&Sample> {
-        self.sample(g, number, on_manifold)?;
-        let domain = if on_manifold && self.manifold.is_some() { &mut self.bound } else { &mut self.free };
-        while domain.drawn.len() <= number {
-            let point = domain.samples[domain.drawn.len()].with_drawn_roots();
-            domain.drawn.push(point);
-        }
-        Some(&domain.drawn[number])
-    }
-
     /// Whether a residue has a sign by chance, so that one point tells nothing of others: where absolute values or signs occur, or roots of
     /// squares.
     pub(crate) fn has_signs(&mut self, g: &Graph, e: ExprId) -> bool {
@@ -586,11 +556,6 @@ impl ZeroTest {
             return Residues::Vanish;
         }
         Residues::Few
-    }
-
-    /// Whether an expression vanishes at points with drawn roots, as many as without any roots.
-    fn vanishes_whatever_roots_are(&mut self, g: &Graph, e: ExprId, on_manifold: bool) -> bool {
-        (0..POINTS).all(|number| self.drawn_value_at(g, number, e, on_manifold) == Some(0))
     }
 
     /// The real point of a number, which is made once; `None` if there is no such point.

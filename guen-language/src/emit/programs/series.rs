@@ -285,7 +285,7 @@ fn function(series: &SeriesProgram, along_inputs: bool, loads: &dyn Loads, layou
     let begun: Vec<String> = rates.iter().chain(&kept).cloned().collect();
     let used: Vec<String> = next_rates.iter().chain(&now).cloned().collect();
     let (variables, sums, count) = (rates.len(), pairs.len(), kept.len());
-    // As many places as fill registers.
+    // A row is padded to whole registers.
     let row = if sums <= 4 { sums.next_power_of_two() } else { sums.next_multiple_of(8) };
     let factors: String = pairs.iter().map(|[a, b]| format!("[{}, {}],", now[*a], now[*b])).collect();
     let (rates, kept) = (rates.join(","), kept.join(","));
@@ -475,7 +475,7 @@ impl Writer<'_> {
                 format!("{} + {} * {}", sum(*place), self.keep(Kept::Twice(*a)), at(a))
             }
             SeriesStep::Product(a, b, place) => {
-                // What is known last is added last.
+                // The factor that is computed later is added last, so that the sum does not wait for it.
                 let (early, late) =
                     if self.depths[a.index()] > self.depths[b.index()] { (b, a) } else { (a, b) };
                 let (of_early, of_late) = (self.zeroth(*late), self.zeroth(*early));

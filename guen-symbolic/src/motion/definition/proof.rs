@@ -412,15 +412,20 @@ pub(in crate::motion) mod tests {
         assert!(definition.is_solved_by(&mut bench, (&plane, &mut frame), &rates).is_err());
     }
 
+    /// A particle of unit mass on a line.
+    fn particle(bench: &mut Workbench) -> Mechanics {
+        system(bench, &["x"], 1, |graph, _, v, _| {
+            let (zero, one) = (graph.zero(), graph.one());
+            let square = graph.powi(v[0], 2);
+            (vec![Form { row: vec![one], offset: zero }], graph.scale(square, &Rational::new(1, 2)), zero)
+        })
+    }
+
     /// A root that is right wherever a residue happens to have its sign, as three points in a row do for one in eight.
     #[test]
     fn roots_with_the_sign_of_some_points_are_refused() {
         let mut bench = Workbench::new(Graph::new());
-        let point = system(&mut bench, &["x"], 1, |graph, _, v, _| {
-            let (zero, one) = (graph.zero(), graph.one());
-            let square = graph.powi(v[0], 2);
-            (vec![Form { row: vec![one], offset: zero }], graph.scale(square, &Rational::new(1, 2)), zero)
-        });
+        let point = particle(&mut bench);
         let (mut frame, _) = written(&mut bench, &point);
         let x = point.forms.coordinates[0];
         let one = bench.graph.one();
@@ -448,11 +453,7 @@ pub(in crate::motion) mod tests {
     #[test]
     fn many_roots_are_as_good_as_few() {
         let mut bench = Workbench::new(Graph::new());
-        let point = system(&mut bench, &["x"], 1, |graph, _, v, _| {
-            let (zero, one) = (graph.zero(), graph.one());
-            let square = graph.powi(v[0], 2);
-            (vec![Form { row: vec![one], offset: zero }], graph.scale(square, &Rational::new(1, 2)), zero)
-        });
+        let point = particle(&mut bench);
         let (mut frame, _) = written(&mut bench, &point);
         let x = point.forms.coordinates[0];
         let square = bench.graph.powi(x, 2);
