@@ -94,7 +94,8 @@ impl Numbering {
         }
     }
 
-    /// Sums are looked up as multiples of what is numbered, too: in products they have no factor in common, as an expression given has.
+    /// Notes the number that an expression is a multiple of. Sums in products are divided by such numbers, so they are looked up as
+    /// multiples of numbered expressions from now on.
     pub(crate) fn look_for_multiples(&mut self, bench: &mut Workbench, e: ExprId) {
         /// Of many expressions hardly one has another factor.
         const MOST_MULTIPLES: usize = 12;

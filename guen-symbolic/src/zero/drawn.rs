@@ -37,7 +37,7 @@ impl ZeroTest {
         Some(&domain.drawn[number])
     }
 
-    /// Whether an expression vanishes at points with drawn roots, as many as without any roots.
+    /// Whether an expression vanishes at points with drawn roots. Three points are enough, as for an expression without roots.
     pub(super) fn vanishes_whatever_roots_are(&mut self, g: &Graph, e: ExprId, on_manifold: bool) -> bool {
         (0..POINTS).all(|number| self.drawn_value_at(g, number, e, on_manifold) == Some(0))
     }

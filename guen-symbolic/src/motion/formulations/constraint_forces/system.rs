@@ -140,7 +140,8 @@ impl System {
     }
 }
 
-/// A force with the sums that are factors of it whole: that of a spring has the place of its end as a factor, to which all links add.
+/// Returns a force in which sums are kept whole that are factors of products. The force of a spring has the place of its end as such a
+/// factor: a sum with a term for each link.
 pub(super) fn with_whole_factors(bench: &mut Workbench, e: ExprId) -> ExprId {
     let mut whole = Substitution::default();
     let mut inner: BTreeSet<ExprId> = BTreeSet::new();
@@ -163,7 +164,8 @@ pub(super) fn with_whole_factors(bench: &mut Workbench, e: ExprId) -> ExprId {
     whole.of(&mut bench.graph, e)
 }
 
-/// The terms of a force with sums of two terms or more whole that are factors of a term itself: nobody looks into them.
+/// The terms of a force of a long family. A sum that is multiplied by another function of the coordinates is kept whole; the sums inside are
+/// not visited, because they are as long as the family.
 pub(super) fn terms_with_whole_factors(bench: &mut Workbench, e: ExprId) -> Vec<ExprId> {
     let whole = |bench: &mut Workbench, term: ExprId| {
         let (coefficient, monomial) = bench.graph.split_coefficient(term);
@@ -219,8 +221,8 @@ pub(super) fn summands(bench: &mut Workbench, e: ExprId) -> Vec<ExprId> {
     }
 }
 
-/// Terms with the sums multiplied out that are factors of them and depend on the state: of several long ones only one, because products of
-/// all their terms are more than any rate has.
+/// Multiplies out the sums among the factors of terms, where these depend on the state. Of several long sums in one product only one is
+/// multiplied out: products of all their terms would be more than any rate has.
 pub(super) fn spread(bench: &mut Workbench, terms: Vec<ExprId>) -> Vec<ExprId> {
     /// The terms of the shorter sums of a product, multiplied: a length beside a constant has two.
     const MOST_BESIDE_THE_LONGEST: usize = 8;
