@@ -12,7 +12,7 @@ use proc_macro2::{TokenStream, TokenTree};
 
 use guen::Cost;
 use guen_benchmarks::chains::{Angles, declaration};
-use guen_benchmarks::{Subject, Visitor, arms, bars, robots, visit_all};
+use guen_benchmarks::{Subject, Visitor, arms, bars, parallel, robots, visit_all};
 use guen_language::derive::function::RHS;
 
 use crate::lines::{changes, compared, counts, derived, row, six};
@@ -150,6 +150,9 @@ fn mechanisms() -> String {
         ("rods3-pins", robots::pinned_rods(3)),
         ("bars2", bars::in_angles(2)),
         ("bars2-xy", bars::in_points(2)),
+        ("delta", parallel::delta("for i in 0..n { w[i] = dot(q[i]); }")),
+        ("delta-plate", parallel::delta("vx = dot(x); vy = dot(y); vz = dot(z);")),
+        ("two-arms", parallel::two_arms(3)),
     ];
     rows.iter().map(|(name, text)| row(name, text)).collect()
 }

@@ -7,5 +7,7 @@ pub mod arms;
 pub mod bars;
 #[path = "../../../workshop/guen-benchmarks/src/chains.rs"]
 pub mod chains;
+#[path = "../../../workshop/guen-benchmarks/src/parallel.rs"]
+pub mod parallel;
 #[path = "../../../workshop/guen-benchmarks/src/robots.rs"]
 pub mod robots;

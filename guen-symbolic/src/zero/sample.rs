@@ -276,9 +276,6 @@ impl Sample {
             Op::At(function, x) if self.has_drawn_roots => {
                 Some(self.draw(OF_ATOM + function.code() * 256, at(x)))
             }
-            Op::At(function, x) if self.has_drawn_roots => {
-                Some(self.draw(OF_ATOM + function.code() * 256, at(x)))
-            }
             Op::At(Function::Root(q), x) => field::root(at(x), *q),
             Op::At(Function::Abs, x) => field::sqrt(mul(at(x), at(x))),
             Op::At(Function::Sign, x) => Some(match at(x) {

@@ -12,6 +12,7 @@ pub mod chains;
 pub mod contacts;
 #[macro_use]
 mod declarations;
+pub mod parallel;
 pub mod platform;
 mod processor;
 mod random;

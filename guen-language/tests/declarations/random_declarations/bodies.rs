@@ -16,6 +16,7 @@ use super::draw::Draw;
 use super::mechanisms::{self, Mechanism};
 use super::{Numbers, multipliers, numbers_of};
 use crate::common::{by_two_threads, evaluated, rounds};
+use crate::families::parallel;
 
 /// Largest difference, in units of condition times scale.
 const ROUNDING: f64 = 1e-12;
@@ -211,6 +212,27 @@ fn looked_at(seed: u64) -> Seen {
 }
 
 /// More of them with `GUEN_ROUNDS`; that of one number with `GUEN_ONLY`, which prints it.
+/// Loops that meet in one body: what vanishes by their equations follows from more than the bodies need, or from velocities that turn back.
+#[test]
+fn loops_that_meet_are_derived_by_bodies() {
+    let arms = "for i in 0..n { w[i] = dot(q[i]); }";
+    let plate = "vx = dot(x); vy = dot(y); vz = dot(z);";
+    for text in [parallel::delta(arms), parallel::delta(plate), parallel::two_arms(2), parallel::two_arms(3)]
+    {
+        let looked = |derived: &DerivedSystem<'_>| {
+            let declined = &derived.system.derivation.declined;
+            assert!(declined.iter().all(|(formulation, _)| *formulation != "bodies"), "{text}");
+            difference(derived, 7)
+        };
+        match ended(&text, 7, looked) {
+            End::DerivedSystem((worst, states, wrong)) => {
+                assert!(wrong.is_none() && states > 0, "{worst} at {states} states: {wrong:?}");
+            }
+            End::Refused { message, .. } => panic!("{message}\n{text}"),
+        }
+    }
+}
+
 #[test]
 fn mechanisms_end_with_the_right_rates_or_an_error() {
     let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());

@@ -354,8 +354,9 @@ impl<R: Analytic> Meaning<R> {
     fn form(&mut self, name: &str, value: Value<R>) -> Result<(), Missing> {
         match &value {
             Value::Vector(v) => {
+                let (stem, index) = name.split_at(name.find('[').unwrap_or(name.len()));
                 for (axis, e) in ["x", "y", "z"].iter().zip(v) {
-                    let name = format!("{name}_{axis}");
+                    let name = format!("{stem}_{axis}{index}");
                     self.forms.insert(name.clone(), e.re.clone());
                     self.names.insert(name, Value::Scalar(e.clone()));
                 }

@@ -40,20 +40,21 @@ impl Planner<'_> {
         needed: &[Var],
     ) -> Option<Plan> {
         let links = self.links();
-        if let Some(plan) = self.planned(rows.clone(), groups, needed, (&links, true)) {
-            return Some(plan);
-        }
-        // Used on the way to the leaves, what vanishing velocities follow from may be missing in the core.
-        self.planned(rows, groups, needed, (&links, false))
+        // Used on the way to the leaves, what vanishing velocities follow from may be missing in the core. And it may follow from more than
+        // is needed: a plate that three legs carry is part of one of them.
+        [(true, false), (false, false), (true, true)].into_iter().find_map(|(on_the_way, all)| {
+            self.planned(rows.clone(), groups, needed, (&links, on_the_way, all))
+        })
     }
 
-    /// A plan where what vanishing velocities follow from is used on the way, or in the core alone.
+    /// A plan where what vanishing velocities follow from is used on the way, or in the core alone; `all_sources` says whether more unknowns are taken
+    /// for what they follow from.
     fn planned(
         &mut self,
         rows: Vec<Functional>,
         groups: &[Group],
         needed: &[Var],
-        (links, on_the_way): (&[(Var, Linear)], bool),
+        (links, on_the_way, all_sources): (&[(Var, Linear)], bool, bool),
     ) -> Option<Plan> {
         let used = vec![false; rows.len()];
         let mut plan = Plan {
@@ -90,7 +91,10 @@ impl Planner<'_> {
                 return Some(trial);
             }
             // The forms speak of more than is needed.
-            let var = self.next_unknown(&plan, &spoken)?;
+            let sources = links.iter().filter(|_| all_sources).flat_map(|(_, terms)| terms);
+            let sources = self.closure(sources.map(|(var, _)| *var).collect());
+            let further: Vec<Var> = spoken.iter().chain(&sources).copied().collect();
+            let var = self.next_unknown(&plan, &further)?;
             plan.defs[var.0 as usize] = Some(Def::Core(plan.unknowns.len()));
             plan.unknowns.push(var);
             self.advance(&mut plan, &all, used, false);
@@ -270,7 +274,7 @@ impl Planner<'_> {
         let mut found = Vec::new();
         for index in 0..self.variables.len() {
             let var = Var(index as u32);
-            if let Some(Def::Row(_)) = plan.def(var)
+            if !matches!(plan.def(var), None | Some(Def::Known | Def::Kinematic))
                 && let Some((terms, _)) = link(self.numbers, self.tree, self.variables, var)
             {
                 found.push((Equation::Link(var), terms));
