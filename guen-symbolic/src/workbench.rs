@@ -138,7 +138,12 @@ impl Workbench {
     /// Whether more was built than a compiler should spend. From then on questions about expressions stay open, so
     /// that whoever is at work comes to an end soon; the result is given up.
     pub(crate) fn is_exhausted(&self) -> bool {
-        self.graph.work() - self.before > MAX_WORK
+        self.share_of_work() > 1.0
+    }
+
+    /// The work of the derivation so far, as a share of what a compiler should spend.
+    pub(crate) fn share_of_work(&self) -> f64 {
+        (self.graph.work() - self.before) as f64 / MAX_WORK as f64
     }
 
     /// Begins a further derivation in the same graph, with a limit of its own.

@@ -153,6 +153,11 @@ fn mechanisms() -> String {
         ("delta", parallel::delta("for i in 0..n { w[i] = dot(q[i]); }")),
         ("delta-plate", parallel::delta("vx = dot(x); vy = dot(y); vz = dot(z);")),
         ("two-arms", parallel::two_arms(3)),
+        ("legs", parallel::platform("for i in 0..n { v[i] = dot(s[i]); }")),
+        (
+            "legs-plate",
+            parallel::platform("vx = dot(x); vy = dot(y); vz = dot(z); w = angular_velocity_body(R);"),
+        ),
     ];
     rows.iter().map(|(name, text)| row(name, text)).collect()
 }

@@ -39,6 +39,10 @@ pub(in crate::motion) const ALL_WAYS: u64 = 150;
 /// The estimate of rates by bodies up to which others are looked at, unless these cannot promise less.
 pub(in crate::motion) const OTHER_WAYS: u64 = 600;
 
+/// The share of a derivation's work above which no other independent velocities are looked for: reactions and momenta are to come. A platform on six legs
+/// is at 0.51, and the other velocities take less than a tenth.
+pub(in crate::motion) const WORK_BEFORE_INDEPENDENT: f64 = 0.6;
+
 /// The estimate above which a further form of equations is not worth the time to optimise it.
 pub(in crate::motion) const FURTHER_FORMS: u64 = 1000;
 

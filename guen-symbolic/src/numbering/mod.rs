@@ -151,7 +151,6 @@ impl Numbering {
         numbering
     }
 
-    /// Whether everything had a value so far.
     /// Returns the table with square roots that are drawn for their radicands: not every point has all roots of many.
     pub(crate) fn with_drawn_roots(mut self, bench: &mut Workbench) -> Self {
         let (point, on_manifold) = self.point;
@@ -159,6 +158,7 @@ impl Numbering {
         self
     }
 
+    /// Whether everything had a value so far.
     pub(crate) fn is_sound(&self) -> bool {
         !self.failed
     }

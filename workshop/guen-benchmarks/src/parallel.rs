@@ -56,7 +56,7 @@ pub fn two_arms(links: usize) -> String {
             }}
             holonomic {{ at_left: pa[n] = c - O*vec(w/2, 0, 0); at_right: pb[n] = c + O*vec(w/2, 0, 0); }}
             gravity = vec(0, -g, 0);
-            parameters {{ for i in 0..n {{ wa[i] = dot(a[i]); }} for i in 0..{free} - n {{ wb[i] = dot(b[i]); }} }}
+            parameters {{ for i in 0..n {{ wa[i] = dot(a[i]); }} wb[0] = dot(b[0]); for i in 1..{free} - n {{ wb[i] = dot(b[n - i]); }} }}
             forces {{ for i in 0..n {{ u[i] along dot(a[i]); v[i] along dot(b[i]); }} }}
         }}"
     )
@@ -93,4 +93,33 @@ pub fn platform(parameters: &str) -> String {
             forces {{ for i in 0..n {{ f[i] along dot(s[i]); }} }}
         }}"
     )
+}
+
+/// A plate in the plane on three legs of two links, with motors at the feet; a leg is stretched where `e[i]` is zero.
+pub fn planar_platform() -> String {
+    "pub system Planar {
+        count n = 3;
+        constants { M > 0, C > 0, m > 0, J > 0, l > 0, px[n], py[n], bx[n], by[n], g = 9.81 }
+        inputs { u[n] }
+        coordinates { q[n], e[n], x, y, phi }
+        let O = rot_z(phi);
+        let c = vec(x, y, 0);
+        for i in 0..n {
+            let A[i] = rot_z(q[i]);
+            let B[i] = A[i]*rot_z(e[i]);
+            let elbow[i] = vec(px[i], py[i], 0) + l*A[i].x;
+        }
+        bodies {
+            plate { mass: M, inertia: diag(C, C, C), center: c, orientation: O }
+            for i in 0..n {
+                upper[i] { mass: m, inertia: diag(0, J, J), center: elbow[i] - l/2*A[i].x, orientation: A[i] }
+                lower[i] { mass: m, inertia: diag(0, J, J), center: elbow[i] + l/2*B[i].x, orientation: B[i] }
+            }
+        }
+        holonomic { for i in 0..n { closed[i]: elbow[i] + l*B[i].x = c + O*vec(bx[i], by[i], 0); } }
+        gravity = vec(0, -g, 0);
+        parameters { for i in 0..n { w[i] = dot(q[i]); } }
+        forces { for i in 0..n { u[i] along w[i]; } }
+    }"
+    .to_owned()
 }

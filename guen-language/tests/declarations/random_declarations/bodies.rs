@@ -233,6 +233,23 @@ fn loops_that_meet_are_derived_by_bodies() {
     }
 }
 
+/// A leg that is stretched is a dead point for the plate that it carries, and none for the motors whose rates are the parameters.
+#[test]
+fn other_velocities_have_no_dead_points_of_their_own() {
+    let looked = |derived: &DerivedSystem<'_>| {
+        let graph = &derived.model.bench.graph;
+        let stretched = |symbol: SymbolId| match &graph.symbol_info(symbol).name[..] {
+            "e[0]" => 0.0,
+            name => {
+                0.5 + 0.37 * (1.0 + name.bytes().fold(0.0, |sum, byte| 1.3 * sum + f64::from(byte))).sin()
+            }
+        };
+        evaluated(&derived.system, function::RHS, stretched).expect("rates")
+    };
+    let End::DerivedSystem(rates) = ended(&parallel::planar_platform(), 3, looked) else { panic!("refused") };
+    assert!(rates.iter().all(|rate| rate.abs() < 1e6), "{rates:?}");
+}
+
 #[test]
 fn mechanisms_end_with_the_right_rates_or_an_error() {
     let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());

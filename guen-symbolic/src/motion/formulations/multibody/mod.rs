@@ -23,14 +23,16 @@ use self::inwards::{beside, inertial_forces, potentials};
 use self::outwards::kinematics::Kinematics;
 use self::places::tree::Tree;
 use self::planning::core::Core;
+use self::planning::independent;
 use self::planning::plan::Planner;
 use self::velocities::declared::{self, Declared};
 use self::velocities::strain::{self, Strain};
 use self::velocities::variables::Variables;
 use crate::algebra::{ExprId, FastMap};
+use crate::geometry::Operators;
 use crate::motion::graph::Turn;
 use crate::motion::quasi_velocities::velocity_forms::VelocityPartials;
-use crate::motion::thresholds::OTHER_WAYS;
+use crate::motion::thresholds::{OTHER_WAYS, WORK_BEFORE_INDEPENDENT};
 use crate::motion::{Frame, Mechanics, MotionEquations};
 use crate::numbering::{Num, Numbering};
 use crate::program::weighted_cost;
@@ -85,9 +87,10 @@ pub(super) fn rates(
             break;
         }
         let mut by = |bench: &mut Workbench, inertial| {
-            points(bench, system, on_manifold)
-                .into_iter()
-                .find_map(|point| attempt(bench, system, frame, partials, point, inertial, &is_stated))
+            points(bench, system, on_manifold).into_iter().find_map(|point| {
+                let posed = Posed { system, inertial, declared: None };
+                attempt(bench, posed, frame, partials, point, &is_stated)
+            })
         };
         let by_bodies = by(bench, InertialForces::OfBodies);
         let by_mass = match by_bodies {
@@ -99,7 +102,45 @@ pub(super) fn rates(
         // Among equals the first.
         best = best.into_iter().chain(by_bodies).chain(by_mass).min_by_key(|found| cost(bench, found));
     }
-    best
+    by_independent_velocities(bench, &forced, partials, on_manifold, best)
+}
+
+/// The rates by independent velocities where these are cheaper than those found; the equations are those of the declared parameters.
+fn by_independent_velocities(
+    bench: &mut Workbench,
+    declared: &Mechanics,
+    partials: &mut VelocityPartials,
+    on_manifold: bool,
+    best: Option<Found>,
+) -> Option<Found> {
+    let cost = best.as_ref().map_or(u64::MAX, |found| weighted_cost(&bench.graph, &found.rates));
+    if cost <= OTHER_WAYS || bench.share_of_work() > WORK_BEFORE_INDEPENDENT {
+        return best;
+    }
+    let Some(system) = independent::restated(bench, declared, partials, on_manifold) else { return best };
+    let Ok(operators) = Operators::new(bench, &system.forms) else { return best };
+    let frame = Frame::new(bench, &system, operators);
+    let mut partials = VelocityPartials::of_system(bench, &system);
+    let posed = Posed { system: &system, inertial: InertialForces::OfBodies, declared: Some(declared) };
+    let found = points(bench, &system, on_manifold)
+        .into_iter()
+        .find_map(|point| attempt(bench, posed, &frame, &mut partials, point, |_| false));
+    match found {
+        Some(found) if weighted_cost(&bench.graph, &found.rates) < cost => {
+            let equations = best.and_then(|best| best.equations);
+            Some(Found { equations, ..found })
+        }
+        _ => best,
+    }
+}
+
+/// A system with the way in which its equations are put up.
+#[derive(Clone, Copy)]
+struct Posed<'a> {
+    system: &'a Mechanics,
+    inertial: InertialForces,
+    /// The system in its declared parameters, where these are others.
+    declared: Option<&'a Mechanics>,
 }
 
 /// A point of the zero test at which expressions are numbered.
@@ -189,7 +230,7 @@ pub(in crate::motion) fn freed(
         let (mass, forces) = assembled(
             bench,
             &mut own,
-            (free, l, InertialForces::OfBodies),
+            (Posed { system: free, inertial: InertialForces::OfBodies, declared: None }, l),
             frame,
             partials,
             |assembly, _| assembly.at_the_root(),
@@ -221,17 +262,18 @@ pub(in crate::motion) fn freed(
 fn assembled<T>(
     bench: &mut Workbench,
     numbers: &mut Numbering,
-    (system, moving, inertial): (&Mechanics, usize, InertialForces),
+    (posed, moving): (Posed<'_>, usize),
     frame: &Frame,
     partials: &mut VelocityPartials,
     then: impl FnOnce(&mut Assembly<'_>, Vec<Num>) -> Option<T>,
 ) -> Option<T> {
+    let Posed { system, inertial, declared: in_declared } = posed;
     for eta in &system.etas[moving..] {
         numbers.define(*eta, Num::ZERO);
     }
     let mut tree = Tree::new(bench, numbers, system, partials)?;
     let strains = Strain::all(bench, numbers, (system, frame), &tree, moving..system.forms.degrees)?;
-    let shapes = declared::shapes(bench, numbers, system, (&mut tree, &strains))?;
+    let shapes = declared::shapes(bench, numbers, system, (&mut tree, &strains), in_declared)?;
     if !numbers.is_sound() {
         return None;
     }
@@ -254,6 +296,17 @@ fn assembled<T>(
     };
     let plan = planner.plan(declared.rows, &declared.groups, &needed)?;
     let core = Core::new(&mut planner, &plan)?;
+    if let Some(in_declared) = in_declared {
+        let mut given = Vec::new();
+        for (form, eta) in declared.parameters.iter().zip(&in_declared.etas) {
+            given.push((form.clone(), planner.numbers.import(planner.bench, *eta)));
+        }
+        planner.forms = &in_declared.forms.forms;
+        let values = core.parameters(&mut planner, &plan, &given)?;
+        for (symbol, value) in system.etas.iter().zip(values) {
+            planner.numbers.define(*symbol, value);
+        }
+    }
 
     let mut kinematics = Kinematics::new(bench, numbers, system, frame, (&tree, &variables), (&plan, &core));
     let velocities: Vec<Num> = (0..system.forms.len()).map(|i| kinematics.value(variables.rate(i))).collect();
@@ -269,6 +322,7 @@ fn assembled<T>(
         kinematics.rest();
     }
     let mut assembly = Assembly::new(kinematics);
+    assembly.declared.clone_from(&declared.parameters);
     assembly.bodies();
     assembly.loads(&declared.loads);
     assembly.beside(&beside);
@@ -280,20 +334,19 @@ fn assembled<T>(
 
 fn attempt(
     bench: &mut Workbench,
-    system: &Mechanics,
+    posed: Posed<'_>,
     frame: &Frame,
     partials: &mut VelocityPartials,
     point: At,
-    inertial: InertialForces,
     is_stated: impl Fn(u64) -> bool,
 ) -> Option<Found> {
+    let system = posed.system;
     let (n, l) = (system.forms.len(), system.forms.degrees);
     let mut own = point.numbering(bench);
-    let solved =
-        assembled(bench, &mut own, (system, l, inertial), frame, partials, |assembly, velocities| {
-            let (accelerations, pivots, root) = assembly.solve()?;
-            Some((velocities, accelerations, pivots, root))
-        });
+    let solved = assembled(bench, &mut own, (posed, l), frame, partials, |assembly, velocities| {
+        let (accelerations, pivots, root) = assembly.solve()?;
+        Some((velocities, accelerations, pivots, root))
+    });
     let (velocities, accelerations, pivots, root) = solved?;
     if !own.is_sound() {
         return None;
@@ -309,6 +362,9 @@ fn attempt(
         MotionEquations { mass: (0..l).map(|s| entries[s * l..][..l].to_vec()).collect(), forces }
     });
     if point.on_manifold && drifts(bench, system, &rates[..n]) {
+        if posed.declared.is_some() {
+            return None;
+        }
         rates[..n].copy_from_slice(&frame.velocities);
     }
     Some(Found { rates, pivots, equations })

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::inwards::assembly::{Assembly, ORDERS};
 use super::outwards::kinematics::Kinematics;
 use super::velocities::variables::{Kind, Var};
-use super::{InertialForces, POINTS, assembled};
+use super::{InertialForces, POINTS, Posed, assembled};
 use crate::geometry::Operators;
 use crate::motion::quasi_velocities::velocity_forms::VelocityPartials;
 use crate::motion::{Frame, Mechanics};
@@ -29,7 +29,8 @@ pub fn elimination_text(bench: &mut Workbench, system: &Mechanics) -> Option<Str
     let operators = Operators::new(bench, &system.forms).ok()?;
     let frame = Frame::new(bench, system, operators);
     let mut partials = VelocityPartials::of_system(bench, system);
-    let context = (system, system.forms.degrees, InertialForces::OfBodies);
+    let posed = Posed { system, inertial: InertialForces::OfBodies, declared: None };
+    let context = (posed, system.forms.degrees);
     (0..POINTS).find_map(|point| {
         let generation = bench.zero.generation();
         let mut numbers = Numbering::new(&mut bench.graph, (point, false), generation);

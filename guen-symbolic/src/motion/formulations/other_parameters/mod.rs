@@ -4,5 +4,5 @@
 
 pub(super) mod base_parameters;
 pub(super) mod headings;
-mod restated;
+pub(super) mod restated;
 pub(super) mod spins;

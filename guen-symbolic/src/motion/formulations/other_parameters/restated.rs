@@ -1,16 +1,63 @@
 //! A system that is derived once more, in other parameters or for other base angles, as far as its rates ask for it.
 
-use crate::algebra::ExprId;
-use crate::geometry::Operators;
+use crate::algebra::{ExprId, Substitution};
+use crate::geometry::{Form, Operators};
 use crate::motion::coordinates::symmetry::Symmetry;
 use crate::motion::definition::projection::{self, Projected};
 use crate::motion::definition::{equations, poincare};
+use crate::motion::graph::FormShape;
 use crate::motion::quasi_velocities::forces;
 use crate::motion::quasi_velocities::velocity_forms::VelocityPartials;
 use crate::motion::thresholds::ALL_FORMS;
 use crate::motion::{Frame, KineticTerm, Mechanics, MotionEquations, Solution, decompose};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
+
+/// A parameter in the place of a declared one.
+pub(in crate::motion::formulations) struct Parameter {
+    pub(in crate::motion::formulations) symbol: ExprId,
+    pub(in crate::motion::formulations) form: Form,
+    pub(in crate::motion::formulations) shape: Option<FormShape>,
+}
+
+/// A system in other parameters. How large forces are may be said in the parameters as declared: their symbols are those of other
+/// quantities there.
+pub(in crate::motion::formulations) fn in_parameters(
+    bench: &mut Workbench,
+    declared: &Mechanics,
+    parameters: Vec<Parameter>,
+) -> Mechanics {
+    let l = declared.forms.degrees;
+    let mut system = declared.clone();
+    let forms = declared.etas.iter().zip(&declared.forms.forms[..l]);
+    let by_velocities = forms.map(|(eta, form)| (*eta, over(bench, form, &declared.velocities)));
+    let mut by_velocities = Substitution::new(by_velocities.collect::<Vec<_>>());
+    let energies = [&mut system.kinetic_energy]
+        .into_iter()
+        .chain(system.multibody.iter_mut().map(|bodies| &mut bodies.other_energy));
+    let along = system.forces.iter_mut().map(|force| &mut force.along);
+    let structure = &mut system.structure;
+    let shapes = structure.forms.iter_mut().chain(&mut structure.loads).flatten();
+    let rests = shapes.chain(structure.scalars.values_mut()).map(|shape| &mut shape.rest);
+    for e in energies.chain(along).chain(rests).chain(&mut system.written[l..]) {
+        *e = by_velocities.of(&mut bench.graph, *e);
+    }
+    system.structure.forms.resize(declared.forms.len(), None);
+    system.structure.vectors.retain(|vector| vector.iter().flatten().all(|form| *form >= l));
+    for (k, Parameter { symbol, form, shape }) in parameters.into_iter().enumerate() {
+        system.etas[k] = symbol;
+        system.written[k] = over(bench, &form, &declared.velocities);
+        system.forms.forms[k] = form;
+        system.structure.forms[k] = shape;
+    }
+    system
+}
+
+/// A form over velocities.
+pub(super) fn over(bench: &mut Workbench, form: &Form, velocities: &[ExprId]) -> ExprId {
+    let linear = bench.dot(&form.row, velocities);
+    bench.graph.add(linear, form.offset)
+}
 
 /// A system with what every way to its equations begins with: operators, terms of the energy, generalised forces.
 pub(super) struct Prepared {

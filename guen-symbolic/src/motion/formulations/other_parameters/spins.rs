@@ -13,7 +13,7 @@
 //! For a quaternion this divides by nothing, `S' x'` is zero, and `C' x' = 2 |q'|^2`; for angles it divides once by what vanishes at
 //! their pole. Terms of the forms without velocities are left out here.
 
-use super::restated::Restated;
+use super::restated::{self, Restated, over};
 use crate::algebra::{ExprId, Flow, Role, Substitution};
 use crate::geometry::{Form, Operators};
 use crate::motion::coordinates::constancy::rests;
@@ -144,29 +144,14 @@ impl Change {
 
     /// The system in the other parameters.
     fn system(&self, bench: &mut Workbench, declared: &Mechanics) -> Mechanics {
-        let l = declared.forms.degrees;
-        let mut system = declared.clone();
-        let mut by_velocities = Vec::new();
-        for (eta, form) in declared.etas.iter().zip(&declared.forms.forms[..l]) {
-            by_velocities.push((*eta, over(bench, form, &declared.velocities)));
-        }
-        let mut by_velocities = Substitution::new(by_velocities);
-        system.kinetic_energy = by_velocities.of(&mut bench.graph, declared.kinetic_energy);
-        for force in &mut system.forces {
-            // How large it is may be said in the parameters as declared: these are what they are.
-            force.along = by_velocities.of(&mut bench.graph, force.along);
-        }
-        system.etas[..l].copy_from_slice(&self.symbols);
-        for (k, parameter) in self.parameters.iter().enumerate() {
+        let parameters = self.parameters.iter().zip(&self.symbols).map(|(parameter, symbol)| {
             let form = match parameter {
                 Parameter::Kept(s) => &declared.forms.forms[*s],
                 Parameter::Spin(form) => form,
             };
-            system.written[k] = over(bench, form, &declared.velocities);
-            system.forms.forms[k] = form.clone();
-        }
-        system.structure.forms.clear();
-        system
+            restated::Parameter { symbol: *symbol, form: form.clone(), shape: None }
+        });
+        restated::in_parameters(bench, declared, parameters.collect())
     }
 
     /// Rates in the other parameters, turned back.
@@ -246,12 +231,6 @@ impl Change {
         }
         moving.into_iter().chain(back).collect()
     }
-}
-
-/// A form over velocities.
-fn over(bench: &mut Workbench, form: &Form, velocities: &[ExprId]) -> ExprId {
-    let linear = bench.dot(&form.row, velocities);
-    bench.graph.add(linear, form.offset)
 }
 
 /// A body that turns.

@@ -9,7 +9,8 @@ use crate::motion::formulations::multibody::outwards::kinematics::Kinematics;
 use crate::motion::formulations::multibody::places::tree::{Content, Tree, Turn};
 use crate::motion::formulations::multibody::planning::core::Core;
 use crate::motion::formulations::multibody::velocities::definitions::{Def, Equation, Plan};
-use crate::motion::formulations::multibody::velocities::relations::{definition, order};
+use crate::motion::formulations::multibody::velocities::forms::Functional;
+use crate::motion::formulations::multibody::velocities::relations::{definition, order, reduced};
 use crate::motion::formulations::multibody::velocities::variables::{Class, Kind, Var, Variables};
 use crate::motion::thresholds::WRITTEN_OUT_PARAMETERS;
 use crate::numbering::{Num, Numbering};
@@ -124,11 +125,13 @@ impl Outwards<'_, '_> {
 pub(in crate::motion) struct Assembly<'a> {
     pub(in crate::motion) kinematics: Kinematics<'a>,
     pub(in crate::motion) form: Form,
+    /// The parameters as declared, where the system is stated in others.
+    pub(in crate::motion) declared: Vec<Functional>,
 }
 
 impl<'a> Assembly<'a> {
     pub(in crate::motion) fn new(kinematics: Kinematics<'a>) -> Self {
-        Assembly { kinematics, form: Form::default() }
+        Assembly { kinematics, form: Form::default(), declared: Vec::new() }
     }
 
     /// A product of two velocities in the energy.
@@ -266,10 +269,18 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Takes everything back to the parameters, and solves: the rates of the parameters, what was divided by, and the equations
+    /// Takes everything back to the parameters, and solves: the rates of the declared parameters, what was divided by, and the equations
     /// at the root.
     pub(in crate::motion) fn solve(&mut self) -> Option<(Vec<Num>, Vec<Num>, Option<Root>)> {
         let bias = self.core_bias();
+        let declared = std::mem::take(&mut self.declared);
+        let declared: Vec<(Functional, Num)> = declared
+            .into_iter()
+            .map(|form| {
+                let bias = self.kinematics.form_bias(&form);
+                (form, bias)
+            })
+            .collect();
         let mut root: Option<Root> = None;
         let is_large = has_many_parameters(self.kinematics.system);
         // Of many parameters the matrix at the root has an entry for each pair; without it there is nothing to differentiate.
@@ -288,7 +299,7 @@ impl<'a> Assembly<'a> {
                         root = Some(own);
                     }
                 }
-                this.eliminated(&etas, &bias)
+                this.eliminated(&etas, &bias, &declared)
             },
             |numbers, (rates, _)| numbers.cost(rates),
         )?;
@@ -366,8 +377,14 @@ impl<'a> Assembly<'a> {
         Some(etas)
     }
 
-    /// The rates of the parameters that are left, by their own equations, and what was divided by.
-    fn eliminated(&mut self, etas: &[Var], bias: &[Num]) -> Option<(Vec<Num>, Vec<Num>)> {
+    /// The rates of the parameters that are left, by their own equations, and what was divided by; of the declared ones where the system is
+    /// stated in others.
+    fn eliminated(
+        &mut self,
+        etas: &[Var],
+        bias: &[Num],
+        declared: &[(Functional, Num)],
+    ) -> Option<(Vec<Num>, Vec<Num>)> {
         let (variables, plan) = (self.kinematics.variables, self.kinematics.plan);
         let mut left: Vec<Var> = etas.iter().copied().filter(|var| !self.form.is_eliminated(*var)).collect();
         while !left.is_empty() {
@@ -392,7 +409,23 @@ impl<'a> Assembly<'a> {
             let mut outwards = Outwards { tree, variables, plan, core, bias, found, known: &mut known };
             outwards.rate(numbers, var)
         });
-        let rates = etas.iter().map(|var| found.get(var).copied().unwrap_or(Num::ZERO)).collect();
+        let mut rates: Vec<Num> =
+            etas.iter().map(|var| found.get(var).copied().unwrap_or(Num::ZERO)).collect();
+        if !declared.is_empty() {
+            let numbers = &mut *self.kinematics.numbers;
+            rates.clear();
+            for (form, bias_of_form) in declared {
+                let mut sum = *bias_of_form;
+                for (var, c) in reduced(numbers, variables, &form.terms) {
+                    let mut outwards =
+                        Outwards { tree, variables, plan, core, bias, found: &found, known: &mut known };
+                    let rate = outwards.rate(numbers, var);
+                    let part = numbers.mul(c, rate);
+                    sum = numbers.add(sum, part);
+                }
+                rates.push(sum);
+            }
+        }
         Some((rates, std::mem::take(&mut self.form.pivots)))
     }
 

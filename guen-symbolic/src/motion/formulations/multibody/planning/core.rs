@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use super::plan::Planner;
 use crate::geometry::blocks;
 use crate::motion::formulations::multibody::places::tree::{Tree, Turn, plus};
-use crate::motion::formulations::multibody::velocities::definitions::{Equation, Plan};
+use crate::motion::formulations::multibody::velocities::definitions::{Def, Equation, Plan};
 use crate::motion::formulations::multibody::velocities::forms::{Functional, Part};
 use crate::motion::formulations::multibody::velocities::relations::{Linear, definition, link, order};
 use crate::motion::formulations::multibody::velocities::variables::{Var, Variables};
@@ -60,7 +60,48 @@ impl Core {
             };
             rows.push(pulled(planner.numbers, tree, variables, plan, terms, offset));
         }
-        let unknowns = plan.unknowns.clone();
+        Self::solved(planner, rows, plan.unknowns.clone())
+    }
+
+    /// The values of all parameters where forms have given ones. The forms speak of velocities; the parameters are those of the plan.
+    pub(in crate::motion) fn parameters(
+        &self,
+        planner: &mut Planner<'_>,
+        plan: &Plan,
+        forms: &[(Functional, Num)],
+    ) -> Option<Vec<Num>> {
+        let (tree, variables) = (planner.tree, planner.variables);
+        let mut rows = Vec::new();
+        for (form, value) in forms {
+            let terms = planner.reduced(&form.terms);
+            let numbers = &mut *planner.numbers;
+            let (terms, mut offset) = pulled(numbers, tree, variables, plan, terms, form.offset);
+            let mut row = Combination::new();
+            for (var, c) in terms {
+                match plan.def(var) {
+                    Some(Def::Core(index)) => {
+                        for (eta, own) in &self.solutions[index] {
+                            let part = numbers.mul(c, *own);
+                            add(numbers, &mut row, *eta, part);
+                        }
+                        let part = numbers.mul(c, self.offsets[index]);
+                        offset = numbers.add(offset, part);
+                    }
+                    _ => add(numbers, &mut row, var, c),
+                }
+            }
+            rows.push((row, numbers.sub(offset, *value)));
+        }
+        let unknowns = (0..forms.len()).map(|s| variables.eta(s)).collect();
+        Some(Self::solved(planner, rows, unknowns)?.offsets)
+    }
+
+    /// Solves combinations that vanish for as many unknowns; `None` if a divisor vanishes.
+    fn solved(
+        planner: &mut Planner<'_>,
+        mut rows: Vec<(Combination, Num)>,
+        unknowns: Vec<Var>,
+    ) -> Option<Self> {
         let count = unknowns.len();
         let mut core = Core {
             solutions: vec![Linear::new(); count],

@@ -31,6 +31,25 @@ pub(in crate::motion) struct Planner<'a> {
     pub(in crate::motion) known: FastMap<Num, bool>,
 }
 
+/// The equations that a core may have.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Equations {
+    /// Forms, what vanishing velocities follow from, and the kinematics of what forms determine.
+    OfForms,
+    /// The kinematics of what is solved for in another way, too.
+    Further,
+    /// Of more unknowns: of all that vanishing velocities follow from.
+    OfAllSources,
+}
+
+/// A way to plan.
+#[derive(Clone, Copy)]
+struct Way {
+    /// Whether what vanishing velocities follow from is used on the way, or in the core alone.
+    on_the_way: bool,
+    core: Equations,
+}
+
 impl Planner<'_> {
     /// A plan for what is needed; `None` where forms and unknowns do not fit.
     pub(in crate::motion) fn plan(
@@ -40,21 +59,24 @@ impl Planner<'_> {
         needed: &[Var],
     ) -> Option<Plan> {
         let links = self.links();
-        // Used on the way to the leaves, what vanishing velocities follow from may be missing in the core. And it may follow from more than
-        // is needed: a plate that three legs carry is part of one of them.
-        [(true, false), (false, false), (true, true)].into_iter().find_map(|(on_the_way, all)| {
-            self.planned(rows.clone(), groups, needed, (&links, on_the_way, all))
-        })
+        // Used on the way to the leaves, what vanishing velocities follow from may be missing in the core. What is turned back has kinematics of
+        // its own, which a core may need. And what vanishes may follow from more than is needed: a plate that three legs carry is part of one
+        // of them.
+        let ways = [(true, Equations::OfForms), (false, Equations::OfForms)].into_iter().chain([
+            (true, Equations::Further),
+            (false, Equations::Further),
+            (true, Equations::OfAllSources),
+        ]);
+        let mut ways = ways.map(|(on_the_way, core)| Way { on_the_way, core });
+        ways.find_map(|way| self.planned(rows.clone(), groups, needed, (&links, way)))
     }
 
-    /// A plan where what vanishing velocities follow from is used on the way, or in the core alone; `all_sources` says whether more unknowns are taken
-    /// for what they follow from.
     fn planned(
         &mut self,
         rows: Vec<Functional>,
         groups: &[Group],
         needed: &[Var],
-        (links, on_the_way, all_sources): (&[(Var, Linear)], bool, bool),
+        (links, way): (&[(Var, Linear)], Way),
     ) -> Option<Plan> {
         let used = vec![false; rows.len()];
         let mut plan = Plan {
@@ -73,7 +95,7 @@ impl Planner<'_> {
         let wanted: Vec<Var> = needed.iter().filter_map(|var| self.representative(*var)).collect();
         let terms = plan.rows.iter().flat_map(|row| &row.terms);
         let spoken: Vec<Var> = terms.filter_map(|(var, _)| self.representative(*var)).collect();
-        let (used, further) = if on_the_way { (links, &[][..]) } else { (&[][..], links) };
+        let (used, further) = if way.on_the_way { (links, &[][..]) } else { (&[][..], links) };
         let further = further.iter().flat_map(|(_, terms)| terms).map(|(var, _)| var);
         let all = self.closure(wanted.iter().chain(&spoken).chain(further).copied().collect());
         self.advance(&mut plan, &all, used, true);
@@ -86,12 +108,13 @@ impl Planner<'_> {
         loop {
             let mut trial = plan.clone();
             self.turn_directions(&mut trial, groups);
-            if self.choose_core(&mut trial, links).is_some() {
+            if self.choose_core(&mut trial, links, way.core).is_some() {
                 self.finish(&mut trial, used);
                 return Some(trial);
             }
             // The forms speak of more than is needed.
-            let sources = links.iter().filter(|_| all_sources).flat_map(|(_, terms)| terms);
+            let sources =
+                links.iter().filter(|_| way.core == Equations::OfAllSources).flat_map(|(_, terms)| terms);
             let sources = self.closure(sources.map(|(var, _)| *var).collect());
             let further: Vec<Var> = spoken.iter().chain(&sources).copied().collect();
             let var = self.next_unknown(&plan, &further)?;
@@ -269,14 +292,19 @@ impl Planner<'_> {
         found
     }
 
-    /// Returns the kinematics of the velocities that forms determine: equations that nothing has used.
-    fn determined_otherwise(&mut self, plan: &Plan) -> Vec<(Equation, Linear)> {
+    /// Returns the kinematics of the velocities that forms determine, or that follow from others: equations that nothing has used.
+    fn determined_otherwise(&mut self, plan: &Plan, of: Equations) -> Vec<(Equation, Linear)> {
         let mut found = Vec::new();
         for index in 0..self.variables.len() {
             let var = Var(index as u32);
-            if !matches!(plan.def(var), None | Some(Def::Known | Def::Kinematic))
-                && let Some((terms, _)) = link(self.numbers, self.tree, self.variables, var)
-            {
+            // Spins that follow otherwise are left out: what they are made of are rates of angles, which are large next to poles.
+            let is_straight = matches!(self.variables.kind(var), Kind::Before(..) | Kind::Velocity(..));
+            let is_open = match plan.def(var) {
+                None | Some(Def::Known | Def::Kinematic) => false,
+                Some(Def::Row(_)) => true,
+                Some(Def::Link(_) | Def::Back(_) | Def::Core(_)) => is_straight && of != Equations::OfForms,
+            };
+            if is_open && let Some((terms, _)) = link(self.numbers, self.tree, self.variables, var) {
                 found.push((Equation::Link(var), terms));
             }
         }
@@ -356,7 +384,7 @@ impl Planner<'_> {
 
     /// Chooses as many equations as there are unknowns, which determine them: forms first, short ones before long
     /// ones.
-    fn choose_core(&mut self, plan: &mut Plan, links: &[(Var, Linear)]) -> Option<()> {
+    fn choose_core(&mut self, plan: &mut Plan, links: &[(Var, Linear)], of: Equations) -> Option<()> {
         let etas = self.variables.columns[0].len() - 1;
         let mut known = vec![None; self.variables.len()];
         let mut equations: Vec<(Equation, Linear)> = Vec::new();
@@ -367,7 +395,7 @@ impl Planner<'_> {
             }
         }
         equations.extend(links.iter().map(|(var, terms)| (Equation::Link(*var), terms.clone())));
-        equations.extend(self.determined_otherwise(plan));
+        equations.extend(self.determined_otherwise(plan, of));
         let mut list: Vec<(bool, usize, Equation, Vec<u64>)> = Vec::new();
         for (equation, terms) in equations {
             if terms.iter().any(|(var, _)| plan.def(*var).is_none()) {

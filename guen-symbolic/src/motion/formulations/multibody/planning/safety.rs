@@ -23,6 +23,12 @@ const HALVINGS: usize = 60;
 /// The determinant of the forms counts as zero below this share of what it is elsewhere.
 const SINGULAR_BELOW: f64 = 1e-9;
 
+/// Forms whose determinant is smaller than this share of the product of their sizes count as dependent.
+const DEPENDENT_BELOW: f64 = 1e-12;
+
+/// The values of symbols at a state.
+type State<'a> = dyn Fn(SymbolId) -> f64 + 'a;
+
 /// The value of a symbol at a state: the rest position first, then others; constants near one.
 fn at_state(graph: &Graph, symbol: SymbolId, state: u64) -> f64 {
     let info = graph.symbol_info(symbol);
@@ -67,23 +73,62 @@ fn is_singular_between(
     state: u64,
 ) -> bool {
     let graph = &bench.graph;
+    let value = |at: &State<'_>| numbers.evaluate(graph, &[divisor], &|symbol| at(symbol))[0];
+    vanishes_with_the_forms(graph, forms, &value, (0, state))
+}
+
+/// Whether the forms are dependent where a value vanishes that has other signs at two states: on the line between these.
+fn vanishes_with_the_forms(
+    graph: &Graph,
+    forms: &[Form],
+    value: &dyn Fn(&State<'_>) -> f64,
+    (from, to): (u64, u64),
+) -> bool {
     let at = |share: f64, symbol: SymbolId| {
-        (1.0 - share) * at_state(graph, symbol, 0) + share * at_state(graph, symbol, state)
+        (1.0 - share) * at_state(graph, symbol, from) + share * at_state(graph, symbol, to)
     };
-    let value = |share: f64| numbers.evaluate(graph, &[divisor], &|symbol| at(share, symbol))[0];
     let (mut before, mut after) = (0.0, 1.0);
-    let sign = value(before).signum();
+    let sign = value(&|symbol| at(before, symbol)).signum();
     for _ in 0..HALVINGS {
         let middle = 0.5 * (before + after);
-        if value(middle).signum() == sign { before = middle } else { after = middle }
+        if value(&|symbol| at(middle, symbol)).signum() == sign { before = middle } else { after = middle }
     }
-    let entries: Vec<ExprId> = forms.iter().flat_map(|form| form.row.iter().copied()).collect();
-    let determinant = |share: f64| {
-        let values = crate::zero::evaluate_f64(graph, &entries, &|symbol| at(share, symbol));
-        determinant(values.chunks(forms.len()).map(<[f64]>::to_vec).collect())
-    };
+    let determinant = |share: f64| determinant_of(graph, forms, &|symbol| at(share, symbol)).0;
     let elsewhere = f64::max(determinant(0.0).abs(), determinant(1.0).abs());
     determinant(0.5 * (before + after)).abs() < SINGULAR_BELOW * elsewhere
+}
+
+/// The determinant of forms at a state, and the product of their sizes there.
+fn determinant_of(graph: &Graph, forms: &[Form], at: &State<'_>) -> (f64, f64) {
+    let entries: Vec<ExprId> = forms.iter().flat_map(|form| form.row.iter().copied()).collect();
+    let values = crate::zero::evaluate_f64(graph, &entries, &|symbol| at(symbol));
+    let rows: Vec<Vec<f64>> = values.chunks(forms.len()).map(<[f64]>::to_vec).collect();
+    let size = |row: &Vec<f64>| row.iter().fold(0.0_f64, |size, e| size.max(e.abs()));
+    let sizes = rows.iter().map(size).product();
+    (determinant(rows), sizes)
+}
+
+/// Whether forms are dependent only where some others are: at the states that are looked at, and between them.
+pub(in crate::motion::formulations::multibody) fn are_regular_with(
+    graph: &Graph,
+    forms: &[Form],
+    others: &[Form],
+) -> bool {
+    let of = |forms: &[Form], state: u64| {
+        let (determinant, sizes) = determinant_of(graph, forms, &|symbol| at_state(graph, symbol, state));
+        (determinant, determinant.abs() > DEPENDENT_BELOW * sizes)
+    };
+    let value = |at: &State<'_>| determinant_of(graph, forms, at).0;
+    let mut first: Option<(u64, f64)> = None;
+    (0..FAR_STATES).all(|state| {
+        if !of(others, state).1 {
+            return true;
+        }
+        let (own, is_regular) = of(forms, state);
+        let (from, sign) = *first.get_or_insert((state, own));
+        let keeps_sign = own.signum() == sign.signum();
+        is_regular && (keeps_sign || vanishes_with_the_forms(graph, others, &value, (from, state)))
+    }) && first.is_some()
 }
 
 fn determinant(mut rows: Vec<Vec<f64>>) -> f64 {
@@ -94,7 +139,7 @@ fn determinant(mut rows: Vec<Vec<f64>>) -> f64 {
         let Some(largest) = largest else { return product };
         rows.swap(column, largest);
         let pivot = rows[column][column];
-        product *= pivot;
+        product *= if largest == column { pivot } else { -pivot };
         if pivot == 0.0 {
             return 0.0;
         }
@@ -132,6 +177,18 @@ pub(super) fn independent(vectors: &[[f64; 3]]) -> bool {
 mod tests {
     use super::*;
 
+    #[test]
+    fn determinants_have_a_sign() {
+        let rows = |order: [usize; 3]| {
+            let rows = [[0.5, 2.0, 0.0], [1.0, 0.0, 0.25], [0.0, 1.0, -3.0]];
+            order.map(|i| rows[i].to_vec()).to_vec()
+        };
+        let expected = 5.875;
+        for (order, sign) in [([0, 1, 2], 1.0), ([1, 0, 2], -1.0), ([1, 2, 0], 1.0), ([2, 1, 0], -1.0)] {
+            assert!((determinant(rows(order)) - sign * expected).abs() < 1e-14, "{order:?}");
+        }
+    }
+
     /// A cosine is positive within a radian of the rest position; forms that are dependent where it vanishes make it safe.
     #[test]
     fn a_cosine_is_safe_where_the_forms_vanish_with_it_alone() {
@@ -147,6 +204,14 @@ mod tests {
         assert!(is_safe(&bench, &numbers, &form(cosine), divisor));
         let two = bench.graph.add(one, one);
         let raised = bench.graph.add(two, cosine);
+        // So are forms beside others.
+        let graph = &bench.graph;
+        assert!(!are_regular_with(graph, &form(cosine), &form(one)));
+        assert!(
+            are_regular_with(graph, &form(cosine), &form(cosine))
+                && are_regular_with(graph, &form(raised), &form(one))
+        );
+        assert!(!are_regular_with(graph, &form(one), &form(zero)));
         let raised = numbers.import(&mut bench, raised);
         assert!(is_safe(&bench, &numbers, &form(one), raised));
     }

@@ -26,6 +26,8 @@ pub(in crate::motion) struct Declared {
     pub(in crate::motion) groups: Vec<Group>,
     /// The velocity along which each force acts.
     pub(in crate::motion) loads: Vec<Functional>,
+    /// The parameters as declared, where the system is stated in others.
+    pub(in crate::motion) parameters: Vec<Functional>,
 }
 
 /// The context in which the parts of the declaration are made.
@@ -222,14 +224,16 @@ impl Maker<'_> {
 pub(in crate::motion) struct Shapes {
     forms: Vec<Shape>,
     loads: Vec<Shape>,
+    parameters: Vec<Shape>,
 }
 
-/// Takes the declared forms and loads apart.
+/// Takes the declared forms and loads apart, and the declared parameters where the system is stated in others.
 pub(in crate::motion) fn shapes(
     bench: &mut Workbench,
     numbers: &mut Numbering,
     system: &Mechanics,
     (tree, strains): (&mut Tree, &[Strain]),
+    declared: Option<&Mechanics>,
 ) -> Option<Shapes> {
     let mut maker = Maker { bench, numbers, system, tree, strains };
     let structure = &system.structure;
@@ -240,9 +244,13 @@ pub(in crate::motion) fn shapes(
     let forms = system.written.iter().enumerate().map(|(j, e)| taken(structure.forms.get(j), *e)).collect();
     let loads = system.forces.iter().enumerate();
     let loads = loads.map(|(k, force)| taken(structure.loads.get(k), force.along)).collect();
+    let parameters = declared.into_iter().flat_map(|declared| {
+        (0..declared.forms.degrees).map(|s| (declared.structure.forms.get(s), declared.written[s]))
+    });
+    let parameters = parameters.map(|(shape, written)| taken(shape, written)).collect();
     maker.lengths();
     maker.scalars();
-    Some(Shapes { forms, loads })
+    Some(Shapes { forms, loads, parameters })
 }
 
 impl Declared {
@@ -283,13 +291,15 @@ impl Declared {
             }
             rows.push(row);
         }
-        let loads: Option<Vec<Functional>> =
-            shapes.loads.iter().map(|shape| functional(numbers, shape)).collect();
+        let mut all = |shapes: &[Shape]| -> Option<Vec<Functional>> {
+            shapes.iter().map(|shape| functional(numbers, shape)).collect()
+        };
+        let (loads, parameters) = (all(&shapes.loads)?, all(&shapes.parameters)?);
         let mut groups = Vec::new();
         for vector in &system.structure.vectors {
             groups.extend(group(numbers, (tree, variables), shapes, (vector, l), &mut rows));
         }
-        Some(Declared { rows, groups, loads: loads? })
+        Some(Declared { rows, groups, loads, parameters })
     }
 }
 
