@@ -219,6 +219,52 @@ fn resets_keep_constraints_and_closed_contacts() {
     assert_eq!(run(0.0, 1e-3).unwrap_err(), (2.0, HybridCause::BrokenByReset { contact: "floor" }));
 }
 
+mechanical_system! {
+    /// Two carts on a rail, of which a latch couples the one on a spring to the heavier one. A clock kicks the former, with the latch or after
+    /// it has set the latch free.
+    system Coupled {
+        constants { m > 0 = 1, k > 0 = 4, kick = 3, frees = 0 }
+        coordinates { x, y }
+        particles { m at vec(x, 0); 2*m at vec(y, 0); }
+        parameters { v = dot(x); w = dot(y); }
+        potential_energy = k/2*x^2;
+        states { dot(clock) = 1; dot(open) = 0; }
+        contacts { bolt: latch = x - y, release = open - 1/2; }
+        resets { push: clock - 1 rises, v = kick, open = frees, clock = -100; }
+    }
+}
+
+/// A locked latch takes its part of a velocity that a reset gives, as it does in an impact: the carts go on together. One that the same reset
+/// sets free holds nothing.
+#[test]
+fn locked_latches_carry_the_kicks_of_resets() {
+    let start = coupled::State { x: 0.5, v: -1.0, ..Default::default() };
+    // On the spring alone the cart comes to the other one after an eighth of pi, with the root of two; then both swing.
+    let (locked, after) = (std::f64::consts::FRAC_PI_8, 2.0 / 3.0_f64.sqrt());
+    let swing = |x: f64, v: f64, rate: f64, t: f64| {
+        let (sin, cos) = (rate * t).sin_cos();
+        [x * cos + v / rate * sin, v * cos - x * rate * sin]
+    };
+    let [x, v] = swing(0.0, -(2.0_f64.sqrt()) / 3.0, after, 1.0 - locked);
+    for frees in [0.0, 1.0] {
+        let carts = Coupled { frees, ..Default::default() }.prepare().unwrap();
+        let motion = carts.simulation(&start).tolerance(1e-12).run(0.0..2.5).unwrap();
+        let reset = &motion.transitions()[1];
+        assert_eq!((reset.kind, reset.elements), (TransitionKind::Reset, [true]));
+        assert_eq!(reset.after.bolt == coupled::Bolt::Free, frees == 1.0);
+        let end = motion.end();
+        let together = (3.0 + 2.0 * v) / 3.0;
+        let [[x, dx], [y, dy]] = match frees {
+            0.0 => [swing(x, together, after, 1.5); 2],
+            _ => [swing(x, 3.0, 2.0, 1.5), [x + 1.5 * v, v]],
+        };
+        let impulse = if frees == 0.0 { together - 3.0 } else { 0.0 };
+        assert!((reset.impulses[0] - impulse).abs() < 1e-9, "{frees}: {:?}", reset.impulses);
+        assert!((end.x - x).abs() < 1e-9 && (end.v - dx).abs() < 1e-9, "{frees}: {end:?} {x} {dx}");
+        assert!((end.y - y).abs() < 1e-9 && (end.w - dy).abs() < 1e-9, "{frees}: {end:?} {y} {dy}");
+    }
+}
+
 mechanical_component! {
     /// A wheel that counts its turns and keeps its angle small.
     pub(crate) component Counter(turned: scalar) {

@@ -77,6 +77,10 @@ where
         if self.begins {
             next.lock_at_start(&mut known);
         }
+        // What a reset frees does not hold the velocities that it gives.
+        if was_reset {
+            next.free_latches(self, &mut known);
+        }
         let Strike { impulses, energy, rests, takes_part } =
             next.strike(&touches, &locks, &mut known, resting)?;
         let struck = impulses.iter().any(|impulse| *impulse != 0.0);
@@ -207,7 +211,7 @@ where
         system.free_motion(self.t, &self.state, &self.in_mode.switches, &speeds)
     }
 
-    /// Changes the velocities by an impact, if some contact that touches closes or a latch locks.
+    /// Changes the velocities by an impact, if some contact that touches closes, a latch locks, or one that is locked is to move by a reset.
     fn strike(
         &mut self,
         touches: &[bool; C],
@@ -221,7 +225,8 @@ where
             let rate = H::ELEMENTS[c].normal.map_or(0.0, |row| before[row]);
             touches[c] && H::ELEMENTS[c].kind != Kind::Latch && known[c].normal == Rate::Moving && rate < 0.0
         };
-        if !(0..C).any(|c| meets(c) || locks[c]) {
+        let holds = |c: usize| known[c].latch == ElementState::Locked && known[c].normal == Rate::Moving;
+        if !(0..C).any(|c| meets(c) || locks[c] || holds(c)) {
             return Ok(Strike { impulses: [0.0; W], energy: 0.0, rests: None, takes_part: None });
         }
         let takes_part: [bool; C] = filled(|c| {
