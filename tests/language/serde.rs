@@ -82,3 +82,27 @@ mod short_names {
         assert!(short::D::try_from(Short { a: 2.0 }).is_ok());
     }
 }
+
+mod entries_that_scenes_leave {
+    guen::mechanical_system! {
+        /// A scene has one entry of an array alone, beside a constant that follows another.
+        pub system Row {
+            constants { a = 1, e[2] = 45, c = a, k > 0 = 1 }
+            coordinates { q }
+            kinetic_energy = k/2*dot(q)^2;
+            potential_energy = (e[0] + c*e[1])*q;
+            scene One { fix e[1] = 3; }
+        }
+    }
+
+    #[test]
+    fn go_there_and_back() {
+        for c in [guen::Derived::Follows, guen::Derived::Set(7.0)] {
+            let constants = row::One { a: 2.0, e_0: 5.0, c, ..Default::default() };
+            let text = serde_json::to_string(&constants).unwrap();
+            assert_eq!(serde_json::from_str::<row::One>(&text).unwrap(), constants, "{text}");
+        }
+        let text = serde_json::to_string(&row::One { c: 7.0.into(), ..Default::default() }).unwrap();
+        assert_eq!(text, r#"{"a":1.0,"c":7.0,"k":1.0,"e_0":45.0}"#);
+    }
+}

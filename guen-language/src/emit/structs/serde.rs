@@ -113,7 +113,9 @@ fn of_constants(layout: &Layout, structure: &Fields, marker: Option<&TokenStream
     let names = fields.iter().map(|field| field.to_string().trim_start_matches("r#").to_owned());
     let locals: Vec<Ident> = (0..count).map(|i| format_ident!("__guen_{i}")).collect();
     if !layout.derived.is_empty() {
-        let is_derived: Vec<bool> = (0..count).map(|i| layout.derived.contains(&i)).collect();
+        // An entry that a scene leaves of an array has its field behind the others.
+        let places = structure.order();
+        let is_derived: Vec<bool> = places.iter().map(|place| layout.derived.contains(place)).collect();
         let given = fields.iter().zip(&is_derived).map(|(field, is_derived)| match is_derived {
             true => quote!(__guen::Derived::value(record.#field)),
             false => quote!(::core::option::Option::Some(record.#field)),
