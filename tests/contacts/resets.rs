@@ -265,6 +265,40 @@ fn locked_latches_carry_the_kicks_of_resets() {
     }
 }
 
+mechanical_system! {
+    /// A ball that counts where it meets the floor, and where it turns at the top.
+    system Counting {
+        constants { g > 0 = 10, e in 0..1 = 1/2 }
+        coordinates { z }
+        parameters { v = dot(z); }
+        kinetic_energy = 1/2*v^2;
+        potential_energy = g*z;
+        states { dot(floors) = 0; dot(tops) = 0; }
+        contacts { floor: gap = z, restitution = e; }
+        resets {
+            down: z falls, floors = floors + 1;
+            top: v falls, tops = tops + 1;
+        }
+    }
+}
+
+/// The function of a reset may be that of a gap: it leaves zero with every bounce, and is back within one step, as a parabola is one step.
+#[test]
+fn every_bounce_is_counted() {
+    for tolerance in [1e-4, 1e-6, 1e-9, 1e-12] {
+        for e in [0.5, 0.6, 0.8, 0.9, 1.0] {
+            for z in [1.0, 0.7, 0.31, 1e-3, 1e5] {
+                let ball = Counting { e, ..Default::default() }.prepare().unwrap();
+                let start = counting::State { z, ..Default::default() };
+                // Just past the top of the fourth flight.
+                let span = f64::sqrt(z / 5.0) * (1.0 + 2.0 * (e + e * e + e * e * e) + 1.1 * e.powi(4));
+                let end = ball.simulation(&start).tolerance(tolerance).run(0.0..span).unwrap().end();
+                assert_eq!([end.floors, end.tops], [4.0, 4.0], "{tolerance} {e} {z}");
+            }
+        }
+    }
+}
+
 mechanical_component! {
     /// A wheel that counts its turns and keeps its angle small.
     pub(crate) component Counter(turned: scalar) {

@@ -83,15 +83,21 @@ where
         (time == t).then_some(state)
     }
 
-    /// All functions that reach zero where one was found.
+    /// All functions that reach zero where one was found, at a time known to `bracket`.
     pub(super) fn fired(&self, found: Found, bracket: f64) -> Fired<C, S> {
+        /// The most brackets of a time by which it is taken to be off.
+        const MOST_OFF: f64 = 64.0;
+
         let HybridState { t, state, in_mode, sides, .. } = &self.place;
         let watched = in_mode.watched_along(sides, *t, state);
         let mut fired = Fired::default();
         fired.add(found.function);
         // Where spatial slip ends its direction turns without bounds, and with it the reactions and their rates: they say nothing there.
         let ends_slip = matches!(found.function, Function::Slip(c) if H::ELEMENTS[c].tangential.len() == 2);
-        let bracket = if ends_slip { 0.0 } else { bracket };
+        // What was found is not quite zero where it was put, by as much as the time is off.
+        let off = watched.get(found.function).map_or(0.0, |value| (value.value / value.tangent[0]).abs());
+        let off = if off.is_finite() { off.min(MOST_OFF * bracket) } else { 0.0 };
+        let bracket = if ends_slip { 0.0 } else { bracket.max(2.0 * off) };
         for function in Function::all(C, S).filter(|function| *function != found.function) {
             if ends_slip && function.is_of_reactions() {
                 continue;

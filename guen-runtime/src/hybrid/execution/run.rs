@@ -439,6 +439,7 @@ where
                 watch.finish(&in_mode, t, &state).map_err(|failed| self.back_to(failed))?;
                 self.step = Some(after.time - before.time);
                 (self.place.t, self.place.state) = (t, state);
+                self.place.arm_resets_until((before.time, t), first, &at);
                 let bracket = (t - found.t).abs() + 4.0 * f64::EPSILON * t.abs();
                 let mut fired = self.fired(found, bracket);
                 if first && t == before.time {

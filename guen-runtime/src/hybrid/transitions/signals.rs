@@ -40,6 +40,32 @@ where
         }
     }
 
+    /// Finds it out within a step, up to a time at which something happens: a function may leave zero and be back by then. Just before it is
+    /// back it is further from zero than where a mode begins, which is a zero that was located up to rounding.
+    pub(in crate::hybrid) fn arm_resets_until(
+        &mut self,
+        (start, until): (f64, f64),
+        first: bool,
+        at: &dyn Fn(f64) -> [f64; N],
+    ) {
+        /// The number of times that the step is halved.
+        const HALVINGS: i32 = 50;
+
+        for (s, _) in H::SIGNALS.iter().enumerate().filter(|(_, signal)| !signal.is_switch()) {
+            if self.sides.signals[s] != 0.0 {
+                continue;
+            }
+            let value = |t: f64| self.in_mode.system.signals(t, &at(t))[s];
+            let least = if first { value(start) } else { f64::NEG_INFINITY };
+            let leaves = |t: f64| {
+                side(&self.in_mode, &self.sides, Function::Signal(s), t, &at(t)) > 0 && value(t) > least
+            };
+            if (1..=HALVINGS).any(|k| leaves(until - (until - start) * libm::exp2(-f64::from(k)))) {
+                self.sides.signals[s] = 1.0;
+            }
+        }
+    }
+
     /// Finds it out anew where a mode begins. A reset that waited no longer, and whose zero is where the mode begins, has not happened yet
     /// if neither it nor anything else that happens here has moved its function: inputs that change there do not take it away.
     pub(super) fn arm_resets_anew(&mut self, ready: &[f64; S], fired: &Fired<C, S>, before: &[f64; N]) {
