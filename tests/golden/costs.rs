@@ -142,6 +142,7 @@ fn mechanisms() -> String {
         ("general5", arms::general(5)),
         ("general6", arms::general(6)),
         ("quadruped", robots::quadruped()),
+        ("tripod", robots::tripod()),
         ("biped-quat", robots::biped_on_quaternion()),
         ("rods2", robots::rods(2, false)),
         ("rods4", robots::rods(4, false)),

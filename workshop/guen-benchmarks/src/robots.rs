@@ -252,3 +252,36 @@ pub fn held() -> String {
         )),
     )
 }
+
+/// A floating body on three legs of three joints, mounted at a third of a turn from each other and tilted by a constant.
+pub fn tripod() -> String {
+    "pub system Tripod {
+        count n = 3;
+        constants { M > 0, A > 0, B > 0, C > 0, m > 0, J > 0, K > 0, L > 0, r > 0, l > 0, tilt, twist, g = 9.81 }
+        coordinates { x, y, z, yaw, pitch, roll, q[n], e[n], k[n] }
+        let R = rot_z(yaw)*rot_y(pitch)*rot_x(roll);
+        let c = vec(x, y, z);
+        for i in 0..n {
+            let U[i] = R*rot_z(2*pi/3*i)*rot_x(tilt)*rot_z(q[i])*rot_x(twist);
+            let V[i] = U[i]*rot_z(e[i]);
+            let W[i] = V[i]*rot_y(k[i]);
+            let hip[i] = c + R*rot_z(2*pi/3*i)*vec(r, 0, 0);
+            let knee[i] = hip[i] + l*V[i].x;
+        }
+        bodies {
+            plate { mass: M, inertia: diag(A, B, C), center: c, orientation: R }
+            for i in 0..n {
+                hip_link[i] { mass: m, inertia: diag(J, K, L), center: hip[i] + l/5*U[i].x, orientation: U[i] }
+                thigh[i] { mass: m, inertia: diag(J, K, L), center: hip[i] + l/2*V[i].x, orientation: V[i] }
+                shank[i] { mass: m, inertia: diag(J, K, L), center: knee[i] + l/2*W[i].x, orientation: W[i] }
+            }
+        }
+        gravity = vec(0, 0, -g);
+        parameters {
+            v = dot(c);
+            w = angular_velocity_body(R);
+            for i in 0..n { a[i] = dot(q[i]); b[i] = dot(e[i]); d[i] = dot(k[i]); }
+        }
+    }"
+    .to_owned()
+}

@@ -16,7 +16,7 @@ use super::draw::Draw;
 use super::mechanisms::{self, Mechanism};
 use super::{Numbers, multipliers, numbers_of};
 use crate::common::{by_two_threads, evaluated, rounds};
-use crate::families::parallel;
+use crate::families::{parallel, robots};
 
 /// Largest difference, in units of condition times scale.
 const ROUNDING: f64 = 1e-12;
@@ -212,9 +212,10 @@ fn looked_at(seed: u64) -> Seen {
 }
 
 /// More of them with `GUEN_ROUNDS`; that of one number with `GUEN_ONLY`, which prints it.
-/// Loops that meet in one body: what vanishes by their equations follows from more than the bodies need, or from velocities that turn back.
+/// Loops that meet in one body: what vanishes by their equations follows from more than the bodies need, or from velocities that turn back. Legs
+/// that are mounted at a third of a turn: their first axis points anywhere.
 #[test]
-fn loops_that_meet_are_derived_by_bodies() {
+fn robots_are_derived_by_bodies() {
     let arms = "for i in 0..n { w[i] = dot(q[i]); }";
     let plate = "vx = dot(x); vy = dot(y); vz = dot(z);";
     for text in [parallel::delta(arms), parallel::delta(plate), parallel::two_arms(2), parallel::two_arms(3)]

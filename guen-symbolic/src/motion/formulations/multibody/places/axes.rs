@@ -146,7 +146,9 @@ impl AllAxes {
             Some(found) => found,
             None => {
                 // First the axis is made a coordinate axis, by constant turns.
-                let (turns, axis) = upright(bench, &own)?;
+                let Some((turns, axis)) = upright(bench, &own) else {
+                    return self.turned_beyond(bench, (parent, base?), angle, (system, index));
+                };
                 for turned in turns {
                     let turn = match turned {
                         Turned::About { axis, turn, .. } => rotation_by(bench, axis, turn),
@@ -185,6 +187,50 @@ impl AllAxes {
         let has_places = self.with_places.contains(&index);
         let place = self.joint(bench, parent, axis, (whole, shift), has_places);
         Some((place, base.and_then(|base| simplified(bench, base))))
+    }
+
+    /// Axes of a frame that is turned beyond constant turns, about an axis that is a coordinate axis where it was declared: the first axes have
+    /// these turns.
+    fn turned_beyond(
+        &mut self,
+        bench: &mut Workbench,
+        (mut parent, base): (usize, Matrix),
+        angle: ExprId,
+        (system, index): (&SystemGraph, usize),
+    ) -> Option<(usize, Option<Matrix>)> {
+        let frame = &system.frames()[index];
+        let Turn::About { axis, .. } = &frame.turn else { return None };
+        let turns = self
+            .constant_turns(bench, system, frame.parent)
+            .unwrap_or_else(|| vec![Turned::By { matrix: transposed(&base), spin: [bench.graph.zero(); 3] }]);
+        for turned in turns {
+            parent = self.push(parent, turned, None);
+        }
+        self.turned_about(bench, (parent, None), *axis, angle, (system, index))
+    }
+
+    /// The constant turns from axes to a frame, the first first, where each is about a coordinate axis.
+    fn constant_turns(
+        &self,
+        bench: &mut Workbench,
+        system: &SystemGraph,
+        mut frame: FrameId,
+    ) -> Option<Vec<Turned>> {
+        let mut turns = Vec::new();
+        while self.base(frame).is_some() {
+            let node = system.frame(frame);
+            let Turn::About { axis, angle } = &node.turn else { return None };
+            if !bench.graph.roles(*angle).is_constant() {
+                return None;
+            }
+            let (axis, negative) = coordinate_axis(bench, axis)?;
+            let (sine, cosine) = bench.graph.sin_cos(*angle);
+            let sine = if negative { bench.graph.neg(sine) } else { sine };
+            turns.push(Turned::About { axis, turn: [cosine, sine], angle: None, shift: None });
+            frame = node.parent;
+        }
+        turns.reverse();
+        Some(turns)
     }
 
     /// The constant angle by which a frame's axes are turned further about its own axis, because a frame that is turned so
