@@ -72,6 +72,7 @@ fn chain(graph: &mut Graph, rotors: bool) -> (Mechanics, [ExprId; 3]) {
         outputs: Vec::new(),
         states: Vec::new(),
         motion_symbols: Vec::new(),
+        measured: None,
     };
     (mechanics, constants)
 }

@@ -21,7 +21,7 @@ const HEADER: &str = "\
 # Operations of the benchmark systems, written by `GUEN_BLESS=1 cargo test -p guen-tests --test golden`.
 # One evaluation of the right-hand side, then the preparation of its constants: additions, negations,
 # multiplications, divisions, roots, calls. With an apostrophe: the carried form. With `-0`: no sign is promised
-# of any constant. With a slash: momenta, mass matrix with bias, reactions, where they are large.
+# of any constant. With a slash: momenta, mass matrix with bias, reactions, where they are large, or outputs.
 ";
 
 /// Chains of so many links are not compiled.
@@ -184,7 +184,8 @@ fn costs_are_those_of_the_file() {
     let mut carried = CarriedLines(String::new());
     // Each takes as long as the other.
     let others = std::thread::scope(|scope| {
-        let others = scope.spawn(|| chains() + &pulled_chains() + &pulled_arms() + &mechanisms());
+        let others = scope
+            .spawn(|| chains() + &pulled_chains() + &pulled_arms() + &mechanisms() + &crate::sensors::rows());
         visit_all(&mut carried);
         others.join().unwrap()
     });

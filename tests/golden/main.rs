@@ -9,5 +9,6 @@ mod costs;
 mod linearizations;
 mod lines;
 mod messages;
+mod sensors;
 mod series;
 mod signatures;

@@ -10,7 +10,7 @@ use proc_macro2::Span;
 use super::evaluate::{Evaluated, Evaluator};
 use super::expression_place::ExpressionPlace;
 use super::scope::Category;
-use super::value::Value;
+use super::value::{Value, Vector};
 use crate::diagnostics::Fault;
 use crate::syntax::{Expression, ExpressionKind, Name};
 
@@ -45,6 +45,22 @@ impl Evaluator<'_> {
         let rates = rates.chain(self.states.iter().filter_map(|(of, rate)| Some((*of, (*rate)?))));
         let rates: Vec<_> = rates.chain([(self.time, graph.one())]).collect();
         Flow::new(graph, rates).of(graph, e)
+    }
+
+    /// The rate of a scalar, asked of the motion. Where frames and places say what it is it is kept whole: then no sum with others takes it
+    /// apart.
+    pub(super) fn measured_rate(&mut self, e: ExprId) -> ExprId {
+        let rate = self.rate_along_motion(e);
+        if self.shapes.measure_scalar(e) { self.bench.graph.keep(rate) } else { rate }
+    }
+
+    /// The rates of the components of a vector, asked of the motion, each as that of a scalar.
+    pub(super) fn measured_rates(&mut self, v: &Vector) -> Vector {
+        [0, 1, 2].map(|i| {
+            let rate = self.rate_along_motion(v[i]);
+            let is_known = self.shapes.measure_component(&self.bench.graph, v, i);
+            if is_known { self.bench.graph.keep(rate) } else { rate }
+        })
     }
 
     /// `reaction(name)`: the multiplier of a constraint, the three of a vector constraint.

@@ -338,11 +338,11 @@ impl Evaluator<'_> {
         if is_along_motion && !roles.meets(without_rate) {
             match value {
                 Value::Scalar(e) => {
-                    let rate = self.rate_along_motion(*e);
+                    let rate = self.measured_rate(*e);
                     return self.check_size(rate, span);
                 }
                 Value::Vector(v) => {
-                    let rates = v.map(|e| self.rate_along_motion(e));
+                    let rates = self.measured_rates(v);
                     return self.checked_vector(rates, span);
                 }
                 _ => {}
@@ -358,6 +358,9 @@ impl Evaluator<'_> {
             Value::Scalar(e) => {
                 let rate = self.total_rate(*e);
                 self.shapes.scalar_rate(&self.bench.graph, *e, rate);
+                if self.knows_motion() {
+                    self.shapes.rated(*e, rate);
+                }
                 Ok(Value::Scalar(rate))
             }
             Value::Vector(v) => Ok(Value::Vector(self.vector_rate(v))),

@@ -20,6 +20,10 @@ pub(super) struct Shapes {
     places: BTreeMap<Vector, Place>,
     velocities: BTreeMap<Vector, Velocity>,
     forms: BTreeMap<ExprId, FormShape>,
+    /// Rates of functions of places in outputs.
+    rated: BTreeMap<ExprId, FormShape>,
+    /// Forms whose rates along the motion outputs ask for.
+    measured: Vec<FormShape>,
     /// Components of places along axes of the world.
     heights: BTreeMap<ExprId, (usize, Place)>,
 }
@@ -51,6 +55,8 @@ impl Shapes {
             places: BTreeMap::new(),
             velocities: BTreeMap::new(),
             forms: BTreeMap::new(),
+            rated: BTreeMap::new(),
+            measured: Vec::new(),
             heights: BTreeMap::new(),
         }
     }
@@ -355,6 +361,39 @@ impl Shapes {
                 self.remember_scalar(graph, product, shape);
             }
         }
+    }
+
+    /// `dot(e)` of a function of places is `rate` in an output.
+    pub(super) fn rated(&mut self, e: ExprId, rate: ExprId) {
+        if let Some(shape) = self.system.scalars.get(&e) {
+            self.rated.entry(rate).or_insert_with(|| shape.clone());
+        }
+    }
+
+    /// The rate of a scalar along the motion is asked for; whether it is known as a form.
+    pub(super) fn measure_scalar(&mut self, e: ExprId) -> bool {
+        let shape = self.form(e).or_else(|| self.rated.get(&e).cloned());
+        self.measure(shape)
+    }
+
+    /// The rate of a component of a vector along the motion is asked for; whether it is known as a form.
+    pub(super) fn measure_component(&mut self, graph: &Graph, v: &Vector, i: usize) -> bool {
+        let shape = self.component(graph, v, i);
+        self.measure(shape)
+    }
+
+    fn measure(&mut self, shape: Option<FormShape>) -> bool {
+        let is_known = shape.is_some();
+        self.measured.extend(shape.filter(|shape| !self.measured.contains(shape)));
+        is_known
+    }
+
+    /// The graph of the forms whose rates are asked for, if there are any.
+    pub(super) fn measured(&self) -> Option<SystemGraph> {
+        let forms: Vec<Option<FormShape>> = self.measured.iter().cloned().map(Some).collect();
+        let mut graph = (!forms.is_empty()).then(|| self.system.clone())?;
+        graph.forms = forms;
+        Some(graph)
     }
 
     /// A name for a value: frames are called by it.

@@ -112,6 +112,8 @@ pub struct Mechanics {
     pub outputs: Vec<ExprId>,
     /// Symbols in the outputs and in the rates of the states for what follows from the motion.
     pub motion_symbols: Vec<(ExprId, MotionSymbol)>,
+    /// The velocities whose rates outputs ask for, as forms of a graph with all frames and places that these speak of.
+    pub measured: Option<SystemGraph>,
 }
 
 impl Multibody {
@@ -152,6 +154,8 @@ impl Mechanics {
             *expression = values.of(&mut bench.graph, *expression);
         }
         system.structure = self.structure.with_values(&mut bench.graph, &mut values);
+        let measured = self.measured.as_ref();
+        system.measured = measured.map(|seen| seen.with_values(&mut bench.graph, &mut values));
         system
     }
 }

@@ -7,9 +7,10 @@ use super::formulations::{self, Formulated, Found, large};
 use super::mass_matrix::indispensable;
 use super::quasi_velocities::forces::generalised_forces;
 use super::quasi_velocities::velocity_forms::VelocityPartials;
+use super::results::outputs::outputs;
 use super::results::state_rates;
-use super::{Energies, Frame, Mechanics, MotionEquations, MotionSymbol, Solution, decompose};
-use crate::algebra::{ExprId, FastMap, Flow, Role, Roles, Substitution};
+use super::{Energies, Frame, Mechanics, MotionEquations, Solution, decompose};
+use crate::algebra::{ExprId, FastMap, Flow, Substitution};
 use crate::geometry::{Closure, Operators};
 use crate::workbench::Workbench;
 use crate::zero::Verdict;
@@ -170,7 +171,7 @@ impl Derivation {
             bench.is_seen_to_vanish(power)
         });
         let power = power.unwrap_or(bench.graph.zero());
-        let outputs = outputs(bench, &system, &mut frame, &solution.accelerations, &reactions);
+        let outputs = outputs(bench, &system, &mut frame, &mut partials, &formulations, &reactions);
         state_rates::append(bench, &system, &frame, &reactions, &mut formulations);
         Ok(Derivation {
             system,
@@ -226,46 +227,6 @@ impl Derivation {
         }
         found
     }
-}
-
-/// The outputs on the constraints, with what they ask of the motion.
-fn outputs(
-    bench: &mut Workbench,
-    system: &Mechanics,
-    frame: &mut Frame,
-    accelerations: &[ExprId],
-    reactions: &[Option<ExprId>],
-) -> Vec<ExprId> {
-    let l = system.forms.degrees;
-    let constrained: Vec<ExprId> =
-        system.outputs.iter().map(|e| frame.constrain.of(&mut bench.graph, *e)).collect();
-    let moving = Roles::of(Role::QuasiAcceleration);
-    if !constrained.iter().any(|e| bench.graph.roles(*e).meets(moving)) {
-        return constrained;
-    }
-    let solved: Vec<(ExprId, ExprId)> =
-        system.accelerations.iter().copied().zip(accelerations.iter().copied()).collect();
-    let mut by_motion = Substitution::new(solved.iter().copied());
-    // d/dt along the motion: t at one, x at x', eta at eta'.
-    let rates = system.forms.coordinates.iter().zip(&frame.velocities).map(|(x, v)| (*x, *v));
-    let etas = system.etas[..l].iter().copied().zip(accelerations.iter().copied());
-    let mut along =
-        Flow::new(&bench.graph, rates.chain(etas).chain([(system.forms.time, bench.graph.one())]));
-    let mut images = Vec::new();
-    for (symbol, meaning) in &system.motion_symbols {
-        let image = match meaning {
-            MotionSymbol::CoordinateAcceleration(i) => along.of(&mut bench.graph, frame.velocities[*i]),
-            MotionSymbol::ConstraintRate => bench.graph.zero(),
-            // Whoever asks for a reaction that is not known has been told.
-            MotionSymbol::Reaction(j) => match reactions[*j - l] {
-                Some(reaction) => by_motion.of(&mut bench.graph, reaction),
-                None => bench.graph.zero(),
-            },
-        };
-        images.push((*symbol, bench.keep_large(image)));
-    }
-    let mut by_motion = Substitution::new(solved.into_iter().chain(images));
-    constrained.into_iter().map(|e| by_motion.of(&mut bench.graph, e)).collect()
 }
 
 fn classify(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame, closure: &Closure) -> Class {

@@ -334,6 +334,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
         outputs: Vec::new(),
         states: Vec::new(),
         motion_symbols: Vec::new(),
+        measured: None,
     };
     features.sort_unstable();
     features.dedup();

@@ -95,6 +95,7 @@ impl Scene {
             outputs: Vec::new(),
             states: Vec::new(),
             motion_symbols: Vec::new(),
+            measured: None,
         };
         let declared = Declared::new(&words.graph, &mechanics);
         (declared, derive(words.graph, mechanics, 0).expect("a regular system"))

@@ -61,6 +61,7 @@ pub fn drawn(seed: u64) -> (Words, Mechanics) {
         outputs: Vec::new(),
         states: Vec::new(),
         motion_symbols: Vec::new(),
+        measured: None,
     };
     (words, mechanics)
 }

@@ -160,6 +160,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Features) {
         outputs: Vec::new(),
         states: Vec::new(),
         motion_symbols: Vec::new(),
+        measured: None,
     };
     (words, mechanics, features)
 }

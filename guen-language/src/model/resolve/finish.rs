@@ -156,6 +156,7 @@ impl<'a> Resolver<'a, '_> {
         // Those with an equation stand before the others.
         let further = further.into_iter().flatten().collect();
         let zero = bench.graph.zero();
+        let measured = self.eval.shapes.measured();
         let mut structure = self.eval.shapes.system;
         structure.gravity = self.gravity;
         let magnitudes = self.forces.iter().map(|force| force.magnitude);
@@ -173,6 +174,10 @@ impl<'a> Resolver<'a, '_> {
             let mut structure = structure.clone();
             structure.loads.extend(shapes.into_iter().flatten());
             structure.pruned()
+        });
+        let measured = measured.map(|mut seen| {
+            seen.scalars.clear();
+            seen.pruned()
         });
         let structure = structure.pruned();
         let multibody = self.has_masses.then(|| Multibody {
@@ -238,6 +243,7 @@ impl<'a> Resolver<'a, '_> {
             states,
             outputs: self.output_values,
             motion_symbols,
+            measured,
         };
         let mut followers = Vec::new();
         for name in self.declaration.in_mode.iter().flat_map(|mode| &mode.followers) {

@@ -270,6 +270,7 @@ pub(in crate::motion) mod tests {
             outputs: Vec::new(),
             states: Vec::new(),
             motion_symbols: Vec::new(),
+            measured: None,
         }
     }
 

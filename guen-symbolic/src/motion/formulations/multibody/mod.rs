@@ -10,6 +10,7 @@
 //! `print` writes the plan and the form in lines.
 
 mod inwards;
+pub(in crate::motion) mod measured;
 mod outwards;
 mod places;
 mod planning;
