@@ -215,7 +215,7 @@ impl<'a, 'b> Numbers<'a, 'b> {
         symbols.extend(mechanics.inputs.iter().map(|input| (of(input), 0.7)));
         let value = |symbol: SymbolId| symbols.iter().find(|(known, _)| *known == symbol).unwrap().1;
         match programs.functions.iter().position(|own| own.name == function) {
-            Some(place) => evaluate_function(programs, place, &evaluate_prepare(programs, &value), value),
+            Some(place) => evaluate_function(programs, place, &evaluate_prepare(programs, value), value),
             None => Vec::new(),
         }
     }
