@@ -218,16 +218,29 @@ fn looked_at(seed: u64) -> Seen {
 fn robots_are_derived_by_bodies() {
     let arms = "for i in 0..n { w[i] = dot(q[i]); }";
     let plate = "vx = dot(x); vy = dot(y); vz = dot(z);";
-    for text in [parallel::delta(arms), parallel::delta(plate), parallel::two_arms(2), parallel::two_arms(3)]
-    {
+    let legs = "for i in 0..n { v[i] = dot(s[i]); }";
+    let spins = "vx = dot(x); vy = dot(y); vz = dot(z); w = angular_velocity_body(R);";
+    let robots = [
+        parallel::delta(arms),
+        parallel::delta(plate),
+        parallel::two_arms(2),
+        parallel::two_arms(3),
+        parallel::platform(legs),
+        parallel::platform(spins),
+        parallel::planar_platform(),
+        robots::tripod(),
+    ];
+    for text in robots {
         let looked = |derived: &DerivedSystem<'_>| {
             let declined = &derived.system.derivation.declined;
             assert!(declined.iter().all(|(formulation, _)| *formulation != "bodies"), "{text}");
-            difference(derived, 7)
+            // Not every draw closes all loops.
+            let drawn = |seed| difference(derived, seed);
+            (0..40).map(drawn).find(|(_, states, _)| *states > 0).expect("a state")
         };
         match ended(&text, 7, looked) {
             End::DerivedSystem((worst, states, wrong)) => {
-                assert!(wrong.is_none() && states > 0, "{worst} at {states} states: {wrong:?}");
+                assert!(wrong.is_none(), "{worst} at {states} states: {wrong:?}\n{text}");
             }
             End::Refused { message, .. } => panic!("{message}\n{text}"),
         }
