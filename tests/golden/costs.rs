@@ -155,6 +155,7 @@ fn mechanisms() -> String {
         ("delta-plate", parallel::delta("vx = dot(x); vy = dot(y); vz = dot(z);")),
         ("two-arms", parallel::two_arms(3)),
         ("legs", parallel::platform("for i in 0..n { v[i] = dot(s[i]); }")),
+        ("legs-quat", parallel::platform_on_quaternion("for i in 0..n { v[i] = dot(s[i]); }")),
         (
             "legs-plate",
             parallel::platform("vx = dot(x); vy = dot(y); vz = dot(z); w = angular_velocity_body(R);"),

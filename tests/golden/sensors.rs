@@ -1,4 +1,5 @@
-//! What accelerometers and gyroscopes on bodies read: what the outputs cost beside the rates, and whether each is the rate of the one before.
+//! Readings of accelerometers and gyroscopes on bodies: their operations beside those of the rates, and their values: each acceleration is the
+//! difference quotient of its velocity along the motion.
 
 use std::fmt::Write;
 

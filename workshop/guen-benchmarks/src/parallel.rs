@@ -95,6 +95,14 @@ pub fn platform(parameters: &str) -> String {
     )
 }
 
+/// The same, with the plate on a quaternion.
+pub fn platform_on_quaternion(parameters: &str) -> String {
+    platform(parameters)
+        .replace("yaw, pitch, roll", "q0, q1, q2, q3")
+        .replace("rot_z(yaw)*rot_y(pitch)*rot_x(roll)", "quaternion(q0, q1, q2, q3)")
+        .replace("holonomic {", "holonomic { size: q0^2 + q1^2 + q2^2 + q3^2 = 1;")
+}
+
 /// A plate in the plane on three legs of two links, with motors at the feet; a leg is stretched where `e[i]` is zero.
 pub fn planar_platform() -> String {
     "pub system Planar {

@@ -227,6 +227,7 @@ fn robots_are_derived_by_bodies() {
         parallel::two_arms(3),
         parallel::platform(legs),
         parallel::platform(spins),
+        parallel::platform_on_quaternion(legs),
         parallel::planar_platform(),
         robots::tripod(),
     ];

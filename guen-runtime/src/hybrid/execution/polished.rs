@@ -94,7 +94,7 @@ where
         fired.add(found.function);
         // Where spatial slip ends its direction turns without bounds, and with it the reactions and their rates: they say nothing there.
         let ends_slip = matches!(found.function, Function::Slip(c) if H::ELEMENTS[c].tangential.len() == 2);
-        // What was found is not quite zero where it was put, by as much as the time is off.
+        // At the time that was found its function is not quite zero: the time is off by some brackets.
         let off = watched.get(found.function).map_or(0.0, |value| (value.value / value.tangent[0]).abs());
         let off = if off.is_finite() { off.min(MOST_OFF * bracket) } else { 0.0 };
         let bracket = if ends_slip { 0.0 } else { bracket.max(2.0 * off) };

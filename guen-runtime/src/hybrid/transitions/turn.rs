@@ -77,7 +77,7 @@ where
         if self.begins {
             next.lock_at_start(&mut known);
         }
-        // What a reset frees does not hold the velocities that it gives.
+        // A latch that the same reset frees takes no impulse.
         if was_reset {
             next.free_latches(self, &mut known);
         }

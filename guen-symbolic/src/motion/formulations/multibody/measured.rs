@@ -1,16 +1,16 @@
 //! Velocities in outputs, and their rates along the motion, outwards over the axes and points of bodies.
 //!
-//! Once `x'` and `x''` of the motion are known, nothing has to be solved any more: the spin of axes, the acceleration of a point and what
-//! a sensor sees of both follow from one joint to the next,
+//! Once `x'` and `x''` of the motion are known, nothing has to be solved any more: the angular acceleration of axes and the acceleration of a point
+//! follow from one joint to the next,
 //!
 //! ```text
 //! alpha = R^T alpha_p + omega x w + w',   a = R^T (a_p + U_p r + 2 omega_p x r' + r''),   U = [alpha]x + [omega]x [omega]x
 //! ```
 //!
-//! in the axes of the bodies. Outputs are then read as they were written, second derivatives along coordinates among them; what has the
-//! value of something that is numbered is that, so that of all these nothing is left but what no recursion gives.
+//! in the axes of the bodies. Outputs are then read as they were written, with second derivatives along coordinates. An expression that has the value
+//! of something that is numbered already is not looked into: so of these derivatives only those are left that no recursion gives.
 
-use super::places::tree::{RateForm, Tree, Turn, Vec3, cross, plus};
+use super::places::tree::{RateForm, Tree, Turn, Vec3, cross, gradient, plus};
 use super::{At, DRAWN_POINTS, points};
 use crate::algebra::ExprId;
 use crate::motion::Mechanics;
@@ -214,14 +214,7 @@ impl Measured<'_> {
             return known;
         }
         let (w, alpha) = self.spin(axes);
-        let n = &mut *self.numbers;
-        let [xx, yy, zz] = w.map(|e| n.square(e));
-        let (xy, yz, zx) = (n.mul(w[0], w[1]), n.mul(w[1], w[2]), n.mul(w[2], w[0]));
-        let gradient = [
-            [n.add(yy, zz).neg(), n.sub(xy, alpha[2]), n.add(zx, alpha[1])],
-            [n.add(xy, alpha[2]), n.add(zz, xx).neg(), n.sub(yz, alpha[0])],
-            [n.sub(zx, alpha[1]), n.add(yz, alpha[0]), n.add(xx, yy).neg()],
-        ];
+        let gradient = gradient(self.numbers, &w, &alpha);
         self.gradients[axes] = Some(gradient);
         gradient
     }

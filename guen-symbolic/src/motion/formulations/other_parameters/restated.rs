@@ -20,8 +20,7 @@ pub(in crate::motion::formulations) struct Parameter {
     pub(in crate::motion::formulations) shape: Option<FormShape>,
 }
 
-/// A system in other parameters. How large forces are may be said in the parameters as declared: their symbols are those of other
-/// quantities there.
+/// A system in other parameters. Magnitudes of forces keep the symbols of the declared parameters.
 pub(in crate::motion::formulations) fn in_parameters(
     bench: &mut Workbench,
     declared: &Mechanics,

@@ -2,7 +2,7 @@
 
 use super::kinematics::Kinematics;
 use crate::algebra::ExprId;
-use crate::motion::formulations::multibody::places::tree::{Turn, Vec3, cross};
+use crate::motion::formulations::multibody::places::tree::{Turn, Vec3, cross, gradient};
 use crate::motion::formulations::multibody::velocities::definitions::Def;
 use crate::motion::formulations::multibody::velocities::relations::turned_components;
 use crate::motion::formulations::multibody::velocities::variables::{Class, Kind, Var};
@@ -16,14 +16,7 @@ impl Kinematics<'_> {
         }
         let w = self.spin(axes);
         let alpha = self.spin_rates(axes);
-        let n = &mut *self.numbers;
-        let [xx, yy, zz] = w.map(|e| n.square(e));
-        let (xy, yz, zx) = (n.mul(w[0], w[1]), n.mul(w[1], w[2]), n.mul(w[2], w[0]));
-        let gradient = [
-            [n.add(yy, zz).neg(), n.sub(xy, alpha[2]), n.add(zx, alpha[1])],
-            [n.add(xy, alpha[2]), n.add(zz, xx).neg(), n.sub(yz, alpha[0])],
-            [n.sub(zx, alpha[1]), n.add(yz, alpha[0]), n.add(xx, yy).neg()],
-        ];
+        let gradient = gradient(self.numbers, &w, &alpha);
         self.gradients[axes] = Some(gradient);
         gradient
     }

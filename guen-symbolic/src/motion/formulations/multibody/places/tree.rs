@@ -452,6 +452,17 @@ pub(super) fn turned(numbers: &mut Numbering, axis: usize, cosine: Num, sine: Nu
     image
 }
 
+/// `[alpha]x + [omega]x [omega]x`: the acceleration of a point that is fixed in axes, for its place there.
+pub(in crate::motion) fn gradient(n: &mut Numbering, w: &Vec3, alpha: &Vec3) -> [Vec3; 3] {
+    let [xx, yy, zz] = w.map(|e| n.square(e));
+    let (xy, yz, zx) = (n.mul(w[0], w[1]), n.mul(w[1], w[2]), n.mul(w[2], w[0]));
+    [
+        [n.add(yy, zz).neg(), n.sub(xy, alpha[2]), n.add(zx, alpha[1])],
+        [n.add(xy, alpha[2]), n.add(zz, xx).neg(), n.sub(yz, alpha[0])],
+        [n.sub(zx, alpha[1]), n.add(yz, alpha[0]), n.add(xx, yy).neg()],
+    ]
+}
+
 pub(in crate::motion) fn cross(numbers: &mut Numbering, a: &Vec3, b: &Vec3) -> Vec3 {
     [0, 1, 2].map(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);

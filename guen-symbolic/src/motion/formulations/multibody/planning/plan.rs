@@ -34,18 +34,18 @@ pub(in crate::motion) struct Planner<'a> {
 /// The equations that a core may have.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Equations {
-    /// Forms, what vanishing velocities follow from, and the kinematics of what forms determine.
+    /// Forms, the kinematics of vanishing velocities, and that of velocities that forms determine.
     OfForms,
-    /// The kinematics of what is solved for in another way, too.
+    /// The kinematics of all velocities that are not defined by it, too.
     Further,
-    /// Of more unknowns: of all that vanishing velocities follow from.
+    /// The same, with all velocities from which vanishing ones follow among the unknowns.
     OfAllSources,
 }
 
 /// A way to plan.
 #[derive(Clone, Copy)]
 struct Way {
-    /// Whether what vanishing velocities follow from is used on the way, or in the core alone.
+    /// Whether the kinematics of vanishing velocities may define others on the way to the leaves; else they are equations of the core alone.
     on_the_way: bool,
     core: Equations,
 }
@@ -59,9 +59,9 @@ impl Planner<'_> {
         needed: &[Var],
     ) -> Option<Plan> {
         let links = self.links();
-        // Used on the way to the leaves, what vanishing velocities follow from may be missing in the core. What is turned back has kinematics of
-        // its own, which a core may need. And what vanishes may follow from more than is needed: a plate that three legs carry is part of one
-        // of them.
+        // The kinematics of vanishing velocities may be missing in the core if they define others on the way. A velocity that is turned back has
+        // kinematics of its own, which a core may need. And a vanishing velocity may follow from more than is needed: a plate that three legs
+        // carry is part of one of them.
         let ways = [(true, Equations::OfForms), (false, Equations::OfForms)].into_iter().chain([
             (true, Equations::Further),
             (false, Equations::Further),
