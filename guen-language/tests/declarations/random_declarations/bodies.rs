@@ -248,6 +248,20 @@ fn robots_are_derived_by_bodies() {
     }
 }
 
+/// Parameters that are no rates of coordinates have rates of their own beside those of velocities: here `s' s'`. In the declared parameters
+/// the platform takes some 12,000 operations.
+#[test]
+fn other_velocities_are_turned_back() {
+    let looked = |derived: &DerivedSystem<'_>| {
+        let count = derived.system.program(function::RHS).map_or(0, |rhs| rhs.cost.operations());
+        assert!((1..5000).contains(&count), "{count} operations");
+        (0..40).map(|seed| difference(derived, seed)).find(|(_, states, _)| *states > 0).expect("a state")
+    };
+    let text = parallel::platform("for i in 0..n { v[i] = s[i]*dot(s[i]); }");
+    let End::DerivedSystem((worst, _, wrong)) = ended(&text, 7, looked) else { panic!("refused") };
+    assert!(wrong.is_none(), "{worst}: {wrong:?}");
+}
+
 /// A leg that is stretched is a dead point for the plate that it carries, and none for the motors whose rates are the parameters.
 #[test]
 fn other_velocities_have_no_dead_points_of_their_own() {

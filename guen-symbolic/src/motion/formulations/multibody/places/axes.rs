@@ -194,43 +194,14 @@ impl AllAxes {
     fn turned_beyond(
         &mut self,
         bench: &mut Workbench,
-        (mut parent, base): (usize, Matrix),
+        (parent, base): (usize, Matrix),
         angle: ExprId,
         (system, index): (&SystemGraph, usize),
     ) -> Option<(usize, Option<Matrix>)> {
-        let frame = &system.frames()[index];
-        let Turn::About { axis, .. } = &frame.turn else { return None };
-        let turns = self
-            .constant_turns(bench, system, frame.parent)
-            .unwrap_or_else(|| vec![Turned::By { matrix: transposed(&base), spin: [bench.graph.zero(); 3] }]);
-        for turned in turns {
-            parent = self.push(parent, turned, None);
-        }
+        let Turn::About { axis, .. } = &system.frames()[index].turn else { return None };
+        let spin = [bench.graph.zero(); 3];
+        let parent = self.push(parent, Turned::By { matrix: transposed(&base), spin }, None);
         self.turned_about(bench, (parent, None), *axis, angle, (system, index))
-    }
-
-    /// The constant turns from axes to a frame, the first first, where each is about a coordinate axis.
-    fn constant_turns(
-        &self,
-        bench: &mut Workbench,
-        system: &SystemGraph,
-        mut frame: FrameId,
-    ) -> Option<Vec<Turned>> {
-        let mut turns = Vec::new();
-        while self.base(frame).is_some() {
-            let node = system.frame(frame);
-            let Turn::About { axis, angle } = &node.turn else { return None };
-            if !bench.graph.roles(*angle).is_constant() {
-                return None;
-            }
-            let (axis, negative) = coordinate_axis(bench, axis)?;
-            let (sine, cosine) = bench.graph.sin_cos(*angle);
-            let sine = if negative { bench.graph.neg(sine) } else { sine };
-            turns.push(Turned::About { axis, turn: [cosine, sine], angle: None, shift: None });
-            frame = node.parent;
-        }
-        turns.reverse();
-        Some(turns)
     }
 
     /// The constant angle by which a frame's axes are turned further about its own axis, because a frame that is turned so
