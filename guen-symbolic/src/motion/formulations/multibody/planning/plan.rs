@@ -297,7 +297,7 @@ impl Planner<'_> {
         let mut found = Vec::new();
         for index in 0..self.variables.len() {
             let var = Var(index as u32);
-            // Spins that follow otherwise are left out: what they are made of are rates of angles, which are large next to poles.
+            // The kinematics of spins is not used: they are made of rates of angles, which are large next to poles.
             let is_straight = matches!(self.variables.kind(var), Kind::Before(..) | Kind::Velocity(..));
             let is_open = match plan.def(var) {
                 None | Some(Def::Known | Def::Kinematic) => false,
